@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kCertificate = "cert ", kAnonymous = "tcp ";
 
-// As the command table reads what people type: blanks and letter case do not count.
+// Removes blanks and converts to upper case, because the command table ignores both blanks and letter case.
 std::string plain(std::string_view line) {
   std::string text;
   for (const char c : line) {

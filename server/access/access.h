@@ -1,4 +1,4 @@
-// Who calls, and what that caller may ask for.
+// Callers, their roles, and the requests that the configuration keeps for administrators.
 #pragma once
 
 #include <map>
@@ -13,18 +13,18 @@
 
 namespace axisgate::server {
 
-// What an operator may ask for unless the configuration keeps it for administrators.
+// Requests of operators that the configuration can keep for administrators.
 enum class KeptRequest { none, clear_errors, reset_device, take_over };
 
 struct AdminCommand {
-  std::string name;  // how the lines of callers begin that are kept: "BEC:"
+  std::string name;  // beginning of the command lines that are kept: "BEC:"
   KeptRequest request = KeptRequest::none;
 };
 
 struct AccessConfig {
-  Role local = Role::operator_;            // of local callers that `roles` does not name; nobody: they need a token
-  Role certificates = Role::operator_;     // of callers with a client certificate that `roles` does not name
-  std::map<std::string, Role> roles = {};  // by the caller's name, "unix alice", "cert alice"
+  Role local = Role::operator_;            // of local callers who are not in `roles`; nobody: they need a token
+  Role certificates = Role::operator_;     // of callers with a client certificate who are not in `roles`
+  std::map<std::string, Role> roles = {};  // by the caller's name: "unix alice", "cert alice"
   std::vector<AdminCommand> admin_commands;
 };
 
@@ -36,16 +36,16 @@ struct Caller {
 // Thread safe.
 class Access {
  public:
-  // `administrator` is the user as whom the daemon runs, as "unix alice".
+  // `administrator` is the user as whom the daemon runs, such as "unix alice".
   Access(AccessConfig config, std::string administrator, std::unique_ptr<Tokens> tokens);
 
-  // Somebody on this machine, or with a certificate; without a token.
+  // Returns a caller without a token: a local one, or one with a certificate.
   Caller without_token(std::string who) const;
-  // unauthenticated.
+  // Returns the caller with that token. Fails with unauthenticated.
   Result<Caller> by_token(std::string_view token, Calendar now) const;
 
   bool only_for_admins(KeptRequest request) const;
-  // A line as a caller wrote it.
+  // `line` is a command line as the caller wrote it.
   bool only_for_admins(std::string_view line) const;
 
   Tokens& tokens() const { return *tokens_; }
@@ -56,23 +56,24 @@ class Access {
   const std::unique_ptr<Tokens> tokens_;
 };
 
-// "token night-scan"
+// Returns "token night-scan".
 std::string token_caller(std::string_view name);
-// "cert alice"
+// Returns "cert alice".
 std::string certificate_caller(std::string_view name);
-// "tcp 127.0.0.1:39482": over loopback, without any credential. Two calls by one of these names may come from two
-// people, and calls by two names from one.
+// Returns "tcp 127.0.0.1:39482", a caller over loopback without any credential. Two calls with the same name may come
+// from two people, and calls with two names from one person.
 std::string anonymous_caller(std::string_view address);
 bool is_anonymous(std::string_view who);
-// Of the anonymous, whether the name is that of one connection.
+// Reports whether an anonymous caller's name is that of a connection.
 bool names_connection(std::string_view who);
-// Under which name a caller's requests are remembered and take turns: all anonymous callers over loopback are one.
+// Returns the name under which a caller's requests are remembered and take turns. All anonymous callers over loopback
+// share one name.
 std::string identity_of(std::string_view who);
-// Whose jobs the queue of a mill counts together: all callers without a name of their own are one.
+// Returns the name under which a mill's queue counts a caller's jobs. All anonymous callers share one name.
 std::string queued_as(std::string_view who);
-// Of all users of the Unix socket beyond those that have a name of their own (connections/callers.h): anonymous, too.
+// Name of all users of the Unix socket without a name of their own (connections/callers.h); anonymous, too.
 inline constexpr std::string_view kSharedUnixName = "unix";
-// Whether the two are one caller: false, where nobody can tell.
+// Reports whether both are certainly the same caller; false for anonymous callers.
 bool is_certainly(std::string_view who, std::string_view other);
 
 }  // namespace axisgate::server

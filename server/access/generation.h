@@ -1,4 +1,4 @@
-// Which start of the daemon this is, for fencing tokens that grow over restarts.
+// Number of this start of the daemon, so that fencing tokens grow over restarts.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@ namespace axisgate::server {
 
 struct NewGeneration {
   std::uint32_t number = 0;
-  Result<void> kept;  // internal, where it cannot be written: the message says why
+  Result<void> kept;  // internal if the number cannot be written; the message says why
 };
 
-// Greater than at every earlier start that kept its own in the file `generation` of this directory, and than the
-// seconds since 1970 at those that could not keep it. One synced write. internal, where the file cannot be read.
+// Returns a number that is greater than the number of every earlier start that kept its number in the file `generation`
+// of this directory, and greater than the seconds since 1970 at every earlier start that could not. Makes one synced
+// write. Fails with internal if the file cannot be read.
 Result<NewGeneration> next_generation(const std::string& state_directory, std::uint32_t seconds_since_1970);
 
 }  // namespace axisgate::server

@@ -1,4 +1,4 @@
-// How much each identity may have open at once, so that one program out of control leaves room for the others.
+// Limits for each identity, so that one program out of control leaves room for the others.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace axisgate::server {
 
-// Of one identity, over all its connections.
+// Limits of one identity over all its connections.
 struct LimitsConfig {
   int connections = 512;
   int streams = 2048;
-  int calls = 1024;             // in flight, of those with one request and one answer
-  int message_bytes = 4 << 20;  // of each request's message
+  int calls = 1024;             // in flight, with one request and one answer
+  int message_bytes = 4 << 20;  // of each request message
 };
 
 // Thread safe. Identities with nothing open are forgotten.
@@ -27,15 +27,15 @@ class IdentityLimits {
 
   explicit IdentityLimits(const LimitsConfig& config) : limits_{config.calls, config.streams} {}
 
-  // queue_full, with when to try again, where `who` has as many open as one may.
+  // Fails with queue_full, and says when to try again, if `who` has reached the limit.
   Result<void> check(const std::string& who, Kind kind) const;
 
-  // One that is open; gives its place back when the last copy is gone. The limits outlive it.
+  // A Place counts one open call or stream until its last copy is destroyed. The limits must outlive it.
   using Place = std::shared_ptr<void>;
-  // Beyond the limit, too: it is check() that refuses.
+  // Never refuses, even beyond the limit: check() does that.
   Place take(const std::string& who, Kind kind);
 
-  std::size_t identities() const;  // with something open
+  std::size_t identities() const;  // with anything open
 
  private:
   using Open = std::map<std::string, std::array<int, 2>>;  // by identity and Kind

@@ -1,4 +1,4 @@
-// What a lease is, how it ends, and what happens to it.
+// Leases: their terms, their ends, and the events about them.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace axisgate::server {
 
 using stage::AxisSet;
 
-// What becomes of the holder's motion when nobody keeps the lease alive any more.
+// Effect on the holder's motion when the lease is no longer kept alive.
 enum class AtLoss {
-  finish,            // it continues to its end; the axes are free then
-  stop,              // it is stopped; the lease lasts until it expires, so that its holder may come back
-  stop_and_release,  // it is stopped, and the lease ends with it
+  finish,            // continues to its end; the axes are free then
+  stop,              // is stopped; the lease lasts until it expires, so that its holder may continue
+  stop_and_release,  // is stopped, and the lease ends
 };
 std::string_view name(AtLoss at_loss);  // "stop_and_release"
 
@@ -29,52 +29,52 @@ struct LeaseTerms {
   AxisSet axes;
   Duration time_to_live = kTimeToLive;
   AtLoss at_loss = AtLoss::stop;
-  std::optional<Duration> expected_use{};  // for those who wait
+  std::optional<Duration> expected_use{};  // shown to waiting callers
   std::string purpose{};                   // for people; may be empty
-  std::string session{};                   // stage::Use::session of its caller
+  std::string session{};                   // of the caller; see stage::Use::session
 };
 
-// A stop by another: nothing moves there until the caller who was stopped rearms.
+// A Latch is the effect of another caller's stop: nothing moves on these axes until the stopped caller rearms.
 struct Latch {
   AxisSet axes;
   std::string by;
   TimePoint at{};
 };
 
-// Why no motion begins under a lease any more.
+// A LeaseEnding is the reason why no motion begins under the lease any longer.
 struct LeaseEnding {
   enum class Why {
     released,
     expired,
     handed_over,
     taken_over,
-    cut_off,        // the connection over which it was kept alive broke
-    token_revoked,  // the bearer token of its holder
-    restarted,      // the controller may have
+    cut_off,        // the connection that kept it alive broke
+    token_revoked,  // the bearer token of its holder was revoked
+    restarted,      // the controller may have restarted
   };
   Why why = Why::released;
-  std::string who{};  // to whom it was handed over, or who took it over or revoked the token; empty: none of these
+  std::string who{};  // receiver of the hand-over, or who took it over or revoked the token; empty otherwise
 };
 std::string_view name(LeaseEnding::Why why);     // "handed_over"
 std::string text_of(const LeaseEnding& ending);  // "it was handed over to unix bert"
 
 struct Lease {
   LeaseToken token = 0;
-  std::string sealed_token;  // for the holder alone
+  std::string sealed_token;  // for the holder only
   std::string holder;
   LeaseTerms terms;
   TimePoint since{}, expires{};
-  std::optional<LeaseEnding> ending;  // nothing while it is held
+  std::optional<LeaseEnding> ending;  // nullopt while the lease is held
   std::optional<Latch> latch;
 };
 
 struct WaitingLease {
-  std::uint64_t id = 0;  // 0 is none
-  std::string holder;    // to be
+  std::uint64_t id = 0;  // 0: none
+  std::string holder;    // caller who waits
   LeaseTerms terms;
   TimePoint since{};
-  int place = 1;                          // counts from 1
-  std::optional<Duration> expected_wait;  // nothing where somebody in front has not said how long
+  int place = 1;                          // in the queue, from 1
+  std::optional<Duration> expected_wait;  // nullopt if the holder, or a caller ahead in the queue, gave no duration
 };
 
 struct LeaseGranted {
@@ -84,7 +84,7 @@ struct LeaseGranted {
   bool by_take_over = false;
 };
 
-// No motion begins under it any more. One that runs may last longer.
+// No motion begins under the lease after this event. A running motion may last longer.
 struct LeaseEnded {
   LeaseToken lease = 0;
   std::string holder;
@@ -92,7 +92,7 @@ struct LeaseEnded {
   LeaseEnding::Why why = LeaseEnding::Why::released;
 };
 
-// A stop holds this caller back.
+// A stop holds this caller back from now on.
 struct Latched {
   std::string who;
   AxisSet axes;

@@ -1,4 +1,4 @@
-// Who may use which axes now, and whom a stop holds back.
+// Right of callers to use axes now, and the latches of stops.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,8 @@ bool is_same_program(const std::string& one, const std::string& other) {
   return !one.empty() && one == other && guarded(Guard::own_stop_holds_nobody_back);
 }
 
-// The holder's own stop does not hide that of another. Whether more axes are latched than before.
+// Adds a stop to the latch of a lease. Returns true if more axes are latched than before. The holder's own stop does
+// not replace the name and time of an earlier one.
 bool latch(Lease& lease, const Latch& stop) {
   const AxisSet before = lease.latch ? lease.latch->axes : AxisSet();
   const AxisSet axes = stop.axes | before;
@@ -110,7 +111,7 @@ void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePo
   changed(now);
 }
 
-// The newest of each caller and lease on the same axes.
+// Keeps the newest use by each caller and lease of the same axes.
 void Leases::note_mover(Use use, TimePoint now) {
   std::erase_if(movers_, [&](const Mover& one) {
     const bool same = is_same_caller(one.use.who, use.who) && one.use.lease == use.lease && one.use.axes == use.axes;
@@ -119,7 +120,8 @@ void Leases::note_mover(Use use, TimePoint now) {
   movers_.push_back({std::move(use), now + kMovedLately});
 }
 
-// Stops of one caller by one other are one entry, so that nobody fills the list alone. Whether it is new, or has grown.
+// Notes that `who` is held back. Stops of one caller by one other caller share an entry, so that no caller fills the
+// list alone. Returns true if more axes are latched than before.
 bool Leases::hold_back(const std::string& who, const Latch& latch) {
   const auto known = std::ranges::find_if(held_back_, [&](const HeldBack& one) {
     return is_same_caller(one.who, who) && is_same_caller(one.latch.by, latch.by);
@@ -137,7 +139,7 @@ bool Leases::hold_back(const std::string& who, const Latch& latch) {
 
 std::vector<Latch> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {
   std::vector<Latch> lifted;
-  // One stop may latch the lease and the caller that moved under it.
+  // One stop may have latched both the lease and the caller that moved under it.
   const auto lift = [&](const Latch& latch) {
     const auto same = [&](const Latch& one) { return one.by == latch.by && one.at == latch.at; };
     const auto known = std::ranges::find_if(lifted, same);

@@ -1,4 +1,4 @@
-// The tokens of leases. Each is a number that grows, and callers get it sealed, so that nobody can guess one.
+// Fencing tokens of leases. Each is an ascending number, which callers receive sealed so that nobody can guess one.
 #pragma once
 
 #include <array>
@@ -11,25 +11,27 @@
 
 namespace axisgate::server {
 
-using LeaseToken = std::uint64_t;  // 0 is none
+using LeaseToken = std::uint64_t;  // 0: none
 
-// Later tokens are greater, over restarts of the daemon too. Thread safe.
+// Later tokens are greater, also over restarts of the daemon. Thread safe.
 class LeaseTokens {
  public:
-  // The number, most significant byte first, and the seal.
+  // A sealed token is the number, most significant byte first, and the seal.
   static constexpr std::size_t kSealBytes = 16, kSealedBytes = sizeof(LeaseToken) + kSealBytes;
 
-  // No lease ever has this one.
+  // Token that no lease ever has.
   static constexpr LeaseToken kUnknown = ~LeaseToken{0};
 
-  // `generation` is another, greater one for every start of the daemon.
+  // `generation` must be greater at every start of the daemon.
   explicit LeaseTokens(std::uint32_t generation);
 
   LeaseToken next() { return next_++; }
 
-  // The bytes for the holder: the number and 128 bits that only this run of the daemon can make. They are a secret.
+  // Returns the bytes for the holder: the number, and 128 bits that only this run of the daemon can compute. They are
+  // secret.
   std::string seal(LeaseToken token) const;
-  // 0 for no bytes. lease_lost: the bytes are no token of this run. Compares in constant time.
+  // Returns the number; 0 if `sealed` is empty. Fails with lease_lost if the bytes are not a token of this run.
+  // Compares in constant time.
   Result<LeaseToken> open(std::string_view sealed) const;
 
  private:
@@ -37,7 +39,7 @@ class LeaseTokens {
   Seal seal_of(std::string_view number) const;
 
   const std::uint32_t generation_;
-  std::array<unsigned char, 32> key_{};  // another one for every start
+  std::array<unsigned char, 32> key_{};  // drawn at every start
   std::atomic<LeaseToken> next_;
 };
 

@@ -128,7 +128,7 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
   end_lease(**held, {LeaseEnding::Why::handed_over, to}, false, now);
   Waiting waiting = std::move(*next);
   waiting_.erase(next);
-  waiting.not_after = TimePoint::max();  // granted to them, whenever the settings have been restored
+  waiting.not_after = TimePoint::max();  // granted in any case, as soon as the settings are restored
   waiting_.push_front(std::move(waiting));
   settle(now);
   return {};
@@ -170,7 +170,7 @@ std::vector<WaitingLease> Leases::waiting(TimePoint now) const {
   return all;
 }
 
-// Nothing where one of those in front has not said how long it will be.
+// Returns nullopt if the holder, or a caller ahead in the queue, gave no duration.
 std::optional<Duration> Leases::expected_wait(std::size_t place, TimePoint now) const {
   const AxisSet axes = waiting_[place].lease.terms.axes;
   Duration wait{};
@@ -209,7 +209,7 @@ std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
   return {};
 }
 
-// What keeps a lease from being granted.
+// Returns the obstacle that prevents the grant of a lease.
 std::optional<Problem> Leases::in_the_way(AxisSet axes, TimePoint now) const {
   if (auto held = held_problem(axes, now)) return held;
   for (const auto& [id, running] : running_) {
@@ -255,7 +255,7 @@ void Leases::end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint
   held.continues = continues;
 }
 
-// As its AtLoss says, without a way back.
+// Ends a lease for good, and treats its motion as AtLoss says.
 void Leases::end_unkept(Held& held, LeaseEnding ending, TimePoint now) {
   const Lease& lease = held.lease;
   const bool finishes = lease.terms.at_loss == AtLoss::finish;
@@ -287,7 +287,7 @@ void Leases::expire(TimePoint now) {
   }
 }
 
-// What has come to its end makes room for those who wait.
+// Drops the leases that are over, and grants waiting ones.
 void Leases::settle(TimePoint now) {
   drop_ended();
   while (grant(now)) drop_ended();
@@ -314,7 +314,7 @@ AxisSet Leases::taken() const {
   return axes;
 }
 
-// One, so that the answer may ask for more.
+// Grants a single lease, because its answer may call acquire().
 bool Leases::grant(TimePoint now) {
   AxisSet blocked = taken();
   for (auto waiting = waiting_.begin(); waiting != waiting_.end(); ++waiting) {

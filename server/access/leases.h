@@ -1,4 +1,4 @@
-// Who holds which axes of one device, who waits for them, and whom a stop holds back.
+// Leases of one device: the holders of its axes, the callers who wait, and those whom a stop holds back.
 //
 //   acquire ──► waiting ──► held ──► (released, expired, taken over, device restarted) ──► ending ──► gone
 //                  │           ▲                                                             │
@@ -23,52 +23,52 @@ namespace axisgate::server {
 
 using stage::MotionId;
 
-// Not thread safe: lives on its device's strand. It moves nothing itself: what must stop is fetched by advance().
+// Not thread safe: lives on its device's strand. Stops nothing by itself: advance() returns the stops to be sent.
 class Leases : public stage::Permission {
  public:
   static constexpr std::size_t kWaitingMax = 256;
 
   explicit Leases(LeaseTokens& tokens) : tokens_(tokens) {}
 
-  // Answers once: with the lease, or with lease_held where `wait` is false, deadline_passed, queue_full, or not_sent
-  // when withdrawn. The first two name what is in the way: a holder, one who waits, or a motion without a lease. The id
-  // is that of the waiting one, 0 when it was answered at once.
+  // Answers once: with the lease; with lease_held if `wait` is false; with deadline_passed or queue_full; or with
+  // not_sent after withdraw(). lease_held and deadline_passed name the obstacle: a holder, a waiting caller, or a
+  // motion without a lease. Returns the id of the waiting lease, or 0 if it was answered at once.
   using OnLease = std::function<void(Result<Lease>)>;
   std::uint64_t acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after, TimePoint now,
                         OnLease answer);
   void withdraw(std::uint64_t waiting, TimePoint now);
 
-  // Another time_to_live from now on. lease_lost.
+  // Extends the lease by another time_to_live from now on. Fails with lease_lost.
   Result<Lease> keep_alive(LeaseToken token, TimePoint now);
-  // The connection over which it was kept alive broke; AtLoss says what follows.
+  // Handles the loss of the connection that kept the lease alive, as AtLoss says.
   void lost(LeaseToken token, TimePoint now);
-  // The token of this holder was revoked by another: its leases end, and so does its waiting. What moves under them is
-  // stopped, except where a lease lets it finish.
+  // Ends all leases of `holder`, whose token `by` has revoked, and withdraws the requests of `holder` that wait. Motion
+  // under the leases is stopped, unless a lease lets it finish.
   void cut_off(const std::string& holder, const std::string& by, TimePoint now);
-  // What runs under it runs to its end, and the axes are free then. lease_lost.
+  // Ends the lease. Its running motion continues to its end, and the axes are free then. Fails with lease_lost.
   Result<void> release(LeaseToken token, TimePoint now);
-  // To the first of that name who waits for nothing but these axes, past all others. lease_lost, axis_busy while a
-  // motion runs under it, not_found when nobody of that name waits.
+  // Gives the axes to the first waiting caller named `to` who needs no other axes, before all other callers. Fails with
+  // lease_lost; with axis_busy while a motion runs under the lease; and with not_found if no such caller waits.
   Result<void> hand_over(LeaseToken token, const std::string& to, TimePoint now);
-  // Stops all motion on these axes, no matter who started it, and takes the axes from all others.
+  // Stops all motion on these axes, no matter who started it, and takes the axes from all other callers.
   void take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer);
 
   // Lifts the latches that hold `who` back, those of the leases of `who`, and that of the lease with the token, if
-  // there is one. Answers with what was lifted.
+  // there is one. Returns the lifted latches.
   std::vector<Latch> rearm(LeaseToken token, const std::string& who, TimePoint now);
 
-  std::vector<Lease> held() const;  // those that are ending among them; oldest first
+  std::vector<Lease> held() const;  // with ending ones; oldest first
   std::vector<WaitingLease> waiting(TimePoint now) const;
-  // Somebody whose motion, or whose lease, another stopped. Anonymous callers are held back with
-  // everybody, since each of them may be the one.
+  // A HeldBack is a caller whose motion or lease another caller stopped. Anonymous callers are held back with each of
+  // them, because any anonymous caller may be the stopped one.
   struct HeldBack {
     std::string who;
     Latch latch;
-    bool anonymous = true;  // until one of the anonymous rearms
+    bool anonymous = true;  // holds back anonymous callers, too; false once one of them has rearmed
   };
   const std::vector<HeldBack>& held_back() const { return held_back_; }
 
-  // Called after every change of what the members above tell. Must not call back.
+  // Called after every change of the values that the functions above return. Must not call back.
   std::function<void(TimePoint now)> on_change;
   // Called with each grant, end, latch and rearm, in their order. Must not call back.
   std::function<void(const LeaseEvent& event, TimePoint now)> on_event;
@@ -89,22 +89,22 @@ class Leases : public stage::Permission {
   enum class Settings { untouched, changed, being_restored };
   struct Held {
     Lease lease;
-    bool continues = false;  // of an ending one: what runs may send on until it has ended
+    bool continues = false;  // of an ending lease: its running motion may send until it has ended
     Settings settings = Settings::untouched;
   };
   struct Waiting {
     WaitingLease lease;
     TimePoint not_after{};
     OnLease answer;
-    std::uint64_t order = 0;  // of a take-over: its stop, until that has been answered
+    std::uint64_t order = 0;  // stop order of a take-over until it was answered; else 0
     bool takes_over = false;
   };
   struct Running {
     stage::Use use;
     stage::Occupation occupation;
-    bool revoked = false;  // taken over: not a byte more
+    bool revoked = false;  // taken over: not a byte more may be sent
   };
-  struct Mover {  // moved something a moment ago
+  struct Mover {  // caller that has recently moved something
     stage::Use use;
     TimePoint until{};
   };
@@ -138,7 +138,7 @@ class Leases : public stage::Permission {
   }
 
   static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 4096;
-  // A loop is between two motions for so long at most.
+  // Longest pause of a caller's loop between two motions.
   static constexpr Duration kMovedLately = std::chrono::seconds(10);
 
   LeaseTokens& tokens_;

@@ -16,8 +16,8 @@
 
 namespace axisgate::server {
 
-// Two texts, of which the first byte names the one that counts: a process that is killed while it writes the other
-// leaves this one.
+// Two texts, and a first byte that names the valid one. A process that is killed while it writes the other text leaves
+// the valid one complete.
 struct MappedText::Content {
   char counts;
   std::array<std::array<char, kMax>, 2> texts;

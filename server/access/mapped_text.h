@@ -1,5 +1,5 @@
-// A small text in a mapped file of the state directory: a process that is killed leaves the newest whole one, and
-// nothing waits for the disk.
+// A small text in a mapped file of the state directory. If the process is killed, the newest complete text remains.
+// Writing does not wait for the disk.
 #pragma once
 
 #include <cstddef>
@@ -22,11 +22,12 @@ class MappedText {
   MappedText(const MappedText&) = delete;
   MappedText& operator=(const MappedText&) = delete;
 
-  // Holds until the second replace() from then on.
+  // Returns the newest text, which stays valid until the second replace() after this call.
   std::string_view text() const;
   void replace(const std::string& text);
 
-  // Writes the newest text to the disk, so that it survives a power cut, too. Waits for the disk. From any thread.
+  // Writes the newest text to the disk, so that it also survives a power cut. Waits for the disk. May be called from
+  // any thread.
   void sync() const;
 
  private:

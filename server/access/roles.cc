@@ -6,7 +6,7 @@
 namespace axisgate::server {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames = {"nobody", "observer", "operator", "admin"};  // in their order
+constexpr std::array<std::string_view, 4> kNames = {"nobody", "observer", "operator", "admin"};  // by Role
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What a caller may ask for, by kind of caller.
+// Roles of callers.
 #pragma once
 
 #include <optional>
@@ -6,15 +6,15 @@
 
 namespace axisgate::server {
 
-// Each may do what those before it may.
+// Roles in ascending order; each includes the rights of the roles before it.
 enum class Role {
-  nobody,     // nothing
-  observer,   // read everything but what the configuration keeps for higher roles, and stop
-  operator_,  // move what the leases allow
-  admin,      // what changes a controller for all, take-over, tokens, erasing names
+  nobody,     // no rights
+  observer,   // reads everything, except what the configuration keeps for higher roles, and stops
+  operator_,  // moves axes as the leases allow
+  admin,      // changes a controller for all callers, takes over, manages tokens, erases names
 };
 
-// "observer", "operator", "admin"; "nobody" is none of them.
+// Role names are "observer", "operator" and "admin". role_named() does not accept "nobody".
 std::string_view name(Role role);
 std::optional<Role> role_named(std::string_view name);
 

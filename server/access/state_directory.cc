@@ -26,14 +26,14 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// " (process 123)"; empty, where the lock does not say.
+// Returns " (process 123)"; empty if the lock file names no process.
 std::string holder_in(const std::string& lock) {
   const Result<std::string> text = read_state_file(lock);
   const std::string process = text ? text->substr(0, text->find('\n')) : "";
   return process.empty() ? "" : fmt::format(" (process {})", process);
 }
 
-// For people only, so a full disk does not matter.
+// Writes the process id for people only, so a full disk does not matter.
 void name_holder(const std::string& lock) {
   const Result<Descriptor> file = open_state_file(lock, O_WRONLY | O_TRUNC);
   if (file && file->valid()) ::dprintf(file->get(), "%d\n", ::getpid());
@@ -43,8 +43,8 @@ tl::unexpected<Problem> refuse(const std::string& what, const Problem& why) {
   return fail(Reason::internal, fmt::format("{} {}", what, why.message), why.hint);
 }
 
-// Checks the folders above a directory: who may rename one of them decides what lies at its path. In a sticky folder,
-// such as /tmp, others may rename only what is theirs.
+// Checks the folders above a directory, because a user who may rename one of them decides which directory is at the
+// path. In a sticky folder, such as /tmp, users may rename only their own files.
 Result<void> check_folders_above(const fs::path& directory, const std::string& link) {
   for (fs::path folder = directory.parent_path();; folder = folder.parent_path()) {
     struct stat status {};
@@ -60,8 +60,8 @@ Result<void> check_folders_above(const fs::path& directory, const std::string& l
   }
 }
 
-// Resolves links once, so that nobody can turn them while the daemon runs, and since SQLite follows none. A path that
-// does not exist, or has no link, stays as it is.
+// Resolves links once, so that nobody can change them while the daemon runs, and because SQLite follows none. Returns a
+// path unchanged if it does not exist or has no link.
 Result<std::string> without_links(const std::string& path) {
   std::error_code error;
   if (fs::symlink_status(path, error).type() == fs::file_type::symlink && !fs::exists(path, error)) {
@@ -106,7 +106,7 @@ Result<StateDirectory> StateDirectory::hold(const std::string& path) {
 
 Result<void> StateDirectory::lock() {
   const std::string path = file("lock");
-  // For reading, so that it can also be locked where nothing can be written any more.
+  // Opened for reading, so that it can also be locked on a disk that can no longer be written.
   Result<Descriptor> opened = open_state_file(path, O_RDONLY | O_CREAT);
   if (!opened) return tl::unexpected(opened.error());
   if (!opened->valid()) return {};

@@ -1,4 +1,4 @@
-// The directory in which the daemon keeps what outlives it.
+// Directory of the files that outlive the daemon.
 #pragma once
 
 #include <string>
@@ -10,17 +10,18 @@
 
 namespace axisgate::server {
 
-// $STATE_DIRECTORY (systemd), /var/lib/axisgate for root, else $XDG_STATE_HOME/axisgate or ~/.local/state/axisgate.
+// Returns $STATE_DIRECTORY (systemd); else /var/lib/axisgate for root; else $XDG_STATE_HOME/axisgate or
+// ~/.local/state/axisgate.
 std::string default_state_directory();
 
-// Held by one daemon at a time, for as long as this lives: two would overwrite each other's files. The kernel ends the
-// hold with the process, so a daemon that was killed leaves nothing that is in the way.
+// A StateDirectory locks the directory for one daemon as long as the object exists, because two daemons would overwrite
+// each other's files. The kernel ends the lock with the process, so a killed daemon leaves no lock.
 class StateDirectory {
  public:
-  // Makes the directory, if it is missing. A symbolic link in `path` is followed once: path() has none. Fails with
-  // internal if another daemon holds the directory, or others may write there, or if `path` has a link and others may
-  // write a folder above the directory, or a link to nothing; the message says who and where. A directory in which no
-  // lock can be made is held by nobody: nothing can be kept there either.
+  // Makes the directory if it is missing, and locks it. Follows a symbolic link in `path` once: path() has none. Fails
+  // with internal if another daemon has the lock; if others may write there; if `path` has a link and others may write
+  // a folder above the directory; or if `path` is a link to nothing. The message names the user or process, and the
+  // path. A directory in which no lock file can be made stays unlocked, because nothing can be stored there either.
   static Result<StateDirectory> hold(const std::string& path);
 
   std::string file(std::string_view name) const { return path_ + "/" + std::string(name); }

@@ -36,7 +36,7 @@ tl::unexpected<Problem> no_regular_file(const std::string& path, mode_t mode) {
               "move it away: the daemon makes this file itself");
 }
 
-// open() has one error for several kinds of file, and several for one.
+// Explains an error of open(), which has one error for several kinds of files, and several errors for one kind.
 Result<Descriptor> explain_failed_open(const std::string& path, int error) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0) {
@@ -48,7 +48,7 @@ Result<Descriptor> explain_failed_open(const std::string& path, int error) {
 }
 
 bool write_synced(const std::string& path, const std::string& text) {
-  // What an earlier run, or somebody else, has left there is replaced, never written to.
+  // Replaces a file that an earlier run, or another program, left there. Such a file is never written to.
   ::unlink(path.c_str());
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
   if (!file.valid()) return false;
@@ -67,7 +67,7 @@ void make_state_directory(const std::string& path) {
 }
 
 Result<Descriptor> open_state_file(const std::string& path, int flags) {
-  // O_NONBLOCK: opening a FIFO would wait for somebody at its other end.
+  // O_NONBLOCK: otherwise, opening a FIFO would wait for a process at its other end.
   Descriptor file(::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kMode));
   if (!file.valid()) return explain_failed_open(path, errno);
   struct stat status {};

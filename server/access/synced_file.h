@@ -1,4 +1,4 @@
-// Files of the state directory. They survive a power cut whole: what was there before, or all that is new.
+// Files of the state directory. After a power cut each has either its old content or all of the new content.
 #pragma once
 
 #include <functional>
@@ -10,29 +10,31 @@
 
 namespace axisgate::server {
 
-// For the daemon's user alone, where it is missing. What goes wrong shows when something is written there.
+// Makes a missing directory for the daemon's user only. Problems become visible when something is written there.
 void make_state_directory(const std::string& path);
 
-// Open with these flags and O_NOFOLLOW, without waiting. Not valid, where nothing is there and nothing could be made.
-// internal, with the reason: it is no regular file, others may write it, or it cannot be opened.
+// Opens a file with these flags and O_NOFOLLOW, without waiting. Returns an invalid descriptor if there is no file and
+// none could be made. Fails with internal, and says why, if it is not a regular file, others may write it, or it cannot
+// be opened.
 Result<Descriptor> open_state_file(const std::string& path, int flags);
 
-// Passes on what is in an open file, piece by piece. internal, where it cannot be read.
+// Passes on the content of an open file, piece by piece. Fails with internal if it cannot be read.
 Result<void> read_pieces(int file, const std::string& path, const std::function<void(std::string_view)>& take);
 
-// Empty, where there is none. internal, as above, or where it cannot be read.
+// Returns the content of a file; empty if there is none. Fails with internal as open_state_file() does, or if the file
+// cannot be read.
 Result<std::string> read_state_file(const std::string& path);
 
-// For the daemon's user alone. Makes the directory, if it is missing. internal, with the reason.
+// Replaces a file, for the daemon's user only. Makes the directory if it is missing. Fails with internal, and says why.
 Result<void> replace_synced(const std::string& path, const std::string& text);
 
-// In as many writes as that takes. False, with errno, where not all was written.
+// Writes all bytes, in as many writes as necessary. Returns false, with errno, if not all were written.
 bool write_all(int file, std::string_view bytes);
 
-// Of what has just failed there: internal, with the text of errno.
+// Returns the problem of a write that has just failed: internal, with the text of errno.
 tl::unexpected<Problem> cannot_write(const std::string& path);
 
-// The names in it outlast a power cut from then on. internal, where they may not.
+// Makes the names in a directory survive a power cut. Fails with internal if they may not.
 Result<void> sync_directory(const std::string& path);
 
 }  // namespace axisgate::server

@@ -1,5 +1,4 @@
-// Bearer tokens: who may call with which role, and until when. Kept as hashes, so that reading the file does not let
-// anybody call.
+// Bearer tokens: their names, roles and expiry. Only hashes are stored, so that reading the file lets nobody call.
 #pragma once
 
 #include <chrono>
@@ -18,7 +17,7 @@ namespace axisgate::server {
 using Calendar = std::chrono::sys_seconds;
 
 struct Token {
-  std::string name;  // unique among those that are good
+  std::string name;  // unique among valid tokens
   Role role = Role::nobody;
   Calendar created{}, expires{};
   std::optional<Calendar> revoked;
@@ -33,30 +32,31 @@ class Tokens {
   static constexpr std::size_t kNameMax = 32, kKept = 1000;
   static constexpr auto kLifeMax = std::chrono::years(10);
 
-  // Those of the file, which need not be there. internal, where it cannot be read or is none: the message says what and
-  // in which line.
+  // Reads the tokens from the file, which may be missing. Fails with internal if the file cannot be read or is invalid;
+  // the message says why, and in which line.
   static Result<std::unique_ptr<Tokens>> open(std::string path);
 
-  // Whether such a token could be made. invalid_request for a name that is not a letter and then letters, digits, '-'
-  // or
-  // '_', or is that of a good token; out_of_range for a life beyond kLifeMax; queue_full.
+  // Checks that such a token could be created. Fails with invalid_request if the name is not a letter followed by
+  // letters, digits, '-' or '_', or if a valid token has it; with out_of_range for a life below 1 s or beyond kLifeMax;
+  // and with queue_full.
   Result<void> check_new(const std::string& name, Calendar expires, Calendar now) const;
 
-  // The token itself, which nobody can tell a second time: `axisgate.NAME.SECRET`. As check_new(); internal, where it
-  // cannot be written: there is no such token then.
+  // Returns the token itself, which cannot be read again: `axisgate.NAME.SECRET`. Fails as check_new() does, and with
+  // internal if it cannot be written; the token does not exist then.
   Result<std::string> create(const std::string& name, Role role, Calendar expires, Calendar now);
 
-  // not_found, where no good one has that name. internal, where it cannot be written: it is revoked all the same, until
-  // the daemon ends or, once write_again() has succeeded, for good.
+  // Fails with not_found if no valid token has that name, and with internal if the revocation cannot be written. In
+  // this case the token is revoked until the daemon ends, or for good once write_again() has succeeded.
   Result<void> revoke(const std::string& name, Calendar now);
 
-  // Writes what revoke() could not; false, where there is no such thing. internal, where it still cannot be written.
+  // Writes revocations that revoke() could not write. Returns false if there are none. Fails with internal if they
+  // still cannot be written.
   Result<bool> write_again();
 
-  // unauthenticated, where it is none of ours, has expired, or was revoked.
+  // Returns the token. Fails with unauthenticated if it is not a token of this daemon, has expired, or was revoked.
   Result<Token> check(std::string_view token, Calendar now) const;
 
-  std::vector<Token> list() const;  // oldest first; those that are good no more are kept for 30 days
+  std::vector<Token> list() const;  // oldest first; tokens that are no longer valid are kept for 30 days
 
  private:
   explicit Tokens(std::string path) : path_(std::move(path)) {}
@@ -68,10 +68,10 @@ class Tokens {
   const std::string path_;
   mutable std::mutex mutex_;
   std::vector<Token> tokens_;
-  bool unwritten_ = false;  // whether revoke() has failed to write since write_again() last succeeded
+  bool unwritten_ = false;  // revoke() has failed to write since write_again() last succeeded
 };
 
-// The NAME of `axisgate.NAME.SECRET`; empty where it is no such text.
+// Returns the NAME of `axisgate.NAME.SECRET`; empty if the text has another form.
 std::string_view name_in(std::string_view token);
 
 }  // namespace axisgate::server

@@ -22,8 +22,8 @@ Result<void> check_everybody(const std::string& path, const struct stat& status)
 }
 
 Result<void> check_group(const std::string& path, const struct stat& status) {
-  // Debian gives each user a group of their own and lets it write what they make (umask 002). So the daemon's own group
-  // counts as its user. Who else is in this group, its administrator has decided.
+  // Debian gives each user a group of their own, and lets this group write the user's files (umask 002). So the
+  // daemon's own group counts as its user. Other members of the group are its administrator's decision.
   if ((status.st_mode & S_IWGRP) == 0 || status.st_gid == ::getegid()) return {};
   return refuse(fmt::format("may be written by the members of the group {}", status.st_gid), close_to_others(path));
 }

@@ -1,4 +1,4 @@
-// Who else may change a file that decides what the daemon does.
+// Check that nobody else may change a file that decides what the daemon does.
 #pragma once
 
 #include <sys/stat.h>
@@ -9,13 +9,14 @@
 
 namespace axisgate::server {
 
-// invalid_request where somebody may write it, or may allow themselves to, beside root, the daemon's user and the
-// daemon's group. The message follows on the path, "may be written by ..."; the hint is the command that corrects it.
+// Fails with invalid_request if anybody except root, the daemon's user and the daemon's group may write the file, or
+// could permit themselves to. The message follows the path: "may be written by ..."; the hint is the command that
+// corrects it.
 Result<void> check_writers(const std::string& path, const struct stat& status);
 
-// As above, of the file at this path. If it cannot be looked at, the code that opens it says why. Owner and group do
-// not matter on a file system that is mounted read-only: a container receives files of users whom it does not know like
-// this.
+// Does the same for the file at this path. Succeeds if the file cannot be examined: the code that opens it reports why.
+// Ignores owner and group on a file system that is mounted read-only, because a container receives files of unknown
+// users on such a file system.
 Result<void> check_writers(const std::string& path);
 
 }  // namespace axisgate::server

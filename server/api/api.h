@@ -1,4 +1,4 @@
-// All that can be asked of the gateway, wired. A door is handed this, or the subjects that it needs.
+// The whole API of the gateway, connected. A door receives the Api, or the subjects that it needs.
 #pragma once
 
 #include "server/access/access.h"
@@ -25,10 +25,10 @@
 
 namespace axisgate::api {
 
-// Thread safe. What a caller asks holds none of it, but each device may answer until the gateway ends.
+// Thread safe. Requests in progress do not keep the Api alive, but each device may answer until the gateway ends.
 class Api {
  public:
-  // `gateway` outlives this, and `access` and `saved_positions` the gateway.
+  // `gateway` must outlive this object; `access` and `saved_positions` must outlive the gateway.
   Api(server::Gateway& gateway, const server::Access& access, server::SavedPositions& saved_positions)
       : admission(access, gateway.config().limits, gateway.lease_tokens()),
         mutations(gateway),

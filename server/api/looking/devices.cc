@@ -11,7 +11,7 @@
 namespace axisgate::api {
 namespace {
 
-// The newest state, no more often than asked.
+// A DeviceWatch streams the newest state, at most once per `min_interval`.
 class DeviceWatch final : public Subscription<DeviceState> {
  public:
   DeviceWatch(server::Gateway& gateway, server::Stage& device, Duration min_interval, Streams::Place place)
@@ -50,9 +50,9 @@ class DeviceWatch final : public Subscription<DeviceState> {
   server::Gateway& gateway_;
   server::Stage& device_;
   const Duration min_interval_;
-  std::optional<std::uint64_t> taken_;  // the version that was taken last
-  TimePoint earliest_{};                // for the next one
-  bool waiting_ = false;                // for that time
+  std::optional<std::uint64_t> taken_;  // version that was delivered last
+  TimePoint earliest_{};                // earliest time of the next state
+  bool waiting_ = false;                // a timer for earliest_ is running
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which devices there are, and how they are.
+// Configured devices and their states.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace axisgate::api {
 
-// Both are never null; the device is valid as long as the gateway.
+// Both pointers are never null. The device is valid as long as the gateway.
 struct DeviceState {
   const server::Stage* device = nullptr;
   std::shared_ptr<const stage::State> state;
@@ -29,10 +29,10 @@ struct DeviceState {
 struct DeviceList {
   std::vector<std::variant<DeviceState, MillState>> devices;  // in the order of the configuration
   std::string request_memory{};                               // RequestMemory::mark()
-  bool requests_kept = false;                                 // also over a restart
+  bool requests_kept = false;                                 // requests are remembered over a restart, too
 };
 
-// Not copied: valid during the call that hands it over.
+// A StateNow is not a copy: it is valid only during the call that passes it.
 struct StateNow {
   const server::Stage* device = nullptr;
   const stage::State* state = nullptr;
@@ -43,20 +43,21 @@ class Devices {
  public:
   static constexpr Duration kIntervalMin = std::chrono::milliseconds(10);
 
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Devices(server::Gateway& gateway, const Admission& admission, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
-  // From memory. A stop needs it, for the device's name.
+  // Answers from memory. A caller who wants to stop a device gets its name here.
   Result<DeviceList> list(const Call& call) const;
 
-  // With `max_age` read again from the device where it is older: link_down while that is not up.
+  // Answers with the state; with `max_age`, reads an older state again from the device. Fails with link_down if the
+  // device must be read and is not up.
   void get(const Call& call, std::string_view device, std::optional<Duration> max_age, Answer<StateNow> answer) const;
 
-  // The newest state at every change, no more often than every `min_interval`, which is kIntervalMin at least.
+  // Streams the newest state at every change, at most once per `min_interval`, which is at least kIntervalMin.
   Opened<DeviceState> watch(const Call& call, std::string_view device, Duration min_interval) const;
 
-  // Of no axes named, all. unknown_axis, link_down, and as the device refuses it.
+  // Clears the errors of the axes; empty: all. Fails with unknown_axis or link_down, and as the device refuses it.
   void clear_errors(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                     Answer<void> answer) const;
 

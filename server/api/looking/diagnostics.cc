@@ -16,7 +16,7 @@ class RecordingReader final : public Subscription<std::string> {
       : Subscription(std::move(place)), device_(device), skip_kept_(skip_kept), follow_(follow) {}
 
  private:
-  // Which line is the newest as the call begins is known on the device's strand.
+  // The newest line at the start of the call is known only on the device's strand.
   void begin() override {
     woken_by(device_.recorder());
     device_.post([self = self<RecordingReader>()](server::Leases&, TimePoint) { self->begin_here(); });
@@ -46,9 +46,9 @@ class RecordingReader final : public Subscription<std::string> {
 
   server::Device& device_;
   const bool skip_kept_, follow_;
-  std::optional<server::DeviceRecorder::Reader> reader_;  // nothing: not begun
-  server::RecordingRing::Position end_;                   // of what was kept then
-  std::string header_;                                    // goes out first
+  std::optional<server::DeviceRecorder::Reader> reader_;  // nullopt: not begun
+  server::RecordingRing::Position end_;                   // end of the recording when the call began
+  std::string header_;                                    // sent first
 };
 
 }  // namespace

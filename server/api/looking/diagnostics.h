@@ -1,4 +1,4 @@
-// What went over the lines, and a report for somebody who helps.
+// Recordings of the lines, and the support report.
 #pragma once
 
 #include <functional>
@@ -14,25 +14,25 @@
 
 namespace axisgate::api {
 
-// Of what a report says, what only the door knows.
+// A DoorReport is the part of a support report that only the door knows.
 struct DoorReport {
-  std::string versions;  // "gRPC 1.51\nprotobuf 3.21\n": lines, each with its \n
-  // A device's state as the door shows it to callers.
+  std::string versions;  // "gRPC 1.51\nprotobuf 3.21\n": each line ends with \n
+  // Describes a device's state as the door shows it to callers.
   std::function<std::string(const server::Stage& device, const stage::State& state)> describe;
 };
 
-// Thread safe. Both streams are of text: whole lines, each with its \n.
+// Thread safe. Both streams carry text: whole lines, each with its \n.
 class Diagnostics {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Diagnostics(server::Gateway& gateway, const Admission& admission, const DevicePipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
-  // What is kept of a device's recording, unless `skip_kept`, and with `follow` each new line; without it the stream
-  // ends with the line that was the newest as it began. A slow reader misses lines, and a remark says so.
+  // Streams the kept lines of a device's recording, unless `skip_kept`. With `follow`, new lines are added; otherwise
+  // the stream ends with the line that was the newest when it began. A slow reader misses lines, and a remark says so.
   Opened<std::string> record(const Call& call, std::string_view device, bool skip_kept, bool follow) const;
 
-  // Versions, configuration, state, metrics and recordings, without secrets. It ends.
+  // Streams versions, configuration, state, metrics and recordings, without secrets, and then ends.
   Opened<std::string> report(const Call& call, const DoorReport& door) const;
 
  private:

@@ -11,12 +11,12 @@ namespace {
 
 class EventWatch final : public Subscription<Event> {
  public:
-  // `device` is the one whose events are wanted; empty: all.
+  // `device` selects the events of one device; empty: all devices.
   EventWatch(server::Gateway& gateway, std::uint64_t from, std::string device, Streams::Place place)
       : Subscription(std::move(place)), bus_(gateway.events()), device_(std::move(device)), reader_(gateway, from) {}
 
  private:
-  // A start of the daemon concerns all.
+  // A start of the daemon concerns all readers.
   bool concerns(const server::FactRecord& record) const {
     return device_.empty() || record.device.empty() || record.device == device_;
   }
@@ -41,7 +41,7 @@ class EventWatch final : public Subscription<Event> {
   FactReader reader_;
 };
 
-// Ends before anything was read.
+// An EndedWatch ends before the first event.
 class EndedWatch final : public Subscription<Event> {
  public:
   EndedWatch(StreamEnd end, Streams::Place place) : Subscription(std::move(place)), end_(std::move(end)) {}

@@ -1,4 +1,4 @@
-// The facts of all devices from a revision on.
+// Stream of the facts of all devices, from a revision on.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace axisgate::api {
 
-// Which events a reader wants.
+// An EventRange selects the events that a reader wants.
 struct EventRange {
-  std::string device{};                 // "devices/{d}"; empty: of all
-  std::string run{};                    // of which daemon's run the event before `from` is; empty: not checked
-  std::optional<std::uint64_t> from{};  // 0: from the oldest that is kept; nothing: from now on
+  std::string device{};                 // "devices/{d}"; empty: all devices
+  std::string run{};                    // daemon's run that published the event before `from`; empty: not checked
+  std::optional<std::uint64_t> from{};  // first revision; 0: the oldest kept one; nullopt: new events only
 };
 
 using Event = std::shared_ptr<const server::FactRecord>;  // never null
@@ -27,12 +27,12 @@ using Event = std::shared_ptr<const server::FactRecord>;  // never null
 // Thread safe.
 class Events {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Events(server::Gateway& gateway, const Admission& admission, Streams& streams)
       : gateway_(gateway), admission_(admission), streams_(streams) {}
 
-  // Each once and in order. Ends with compacted, and where to resume, when the next one is not kept any more, at once
-  // where run and revision do not belong together.
+  // Streams each event once and in order. Ends with compacted, and the revision to resume from, if the next event is no
+  // longer kept; immediately if `run` and `from` do not match.
   Opened<Event> watch(const Call& call, const EventRange& range) const;
 
  private:

@@ -35,7 +35,7 @@ Result<void> check(const Filter& filter, int page_size) {
   return {};
 }
 
-// The newest entry is read first: what is appended meanwhile is after it.
+// Reads the newest entry first, so that entries appended meanwhile come after it.
 Result<HistoryPage> page_of(const Journal& journal, const Filter& filter, std::size_t size) {
   const auto head = journal.head();
   if (!head) return tl::unexpected(unavailable(head.error()));
@@ -128,7 +128,7 @@ void History::verify(const Call& call, Result<std::optional<Head>> noted, Answer
                                     answer = std::move(answer)] { answer(verdict_of(journal, noted)); });
 }
 
-// Occupies both threads, since somebody who reads meanwhile would keep the log from being emptied.
+// Occupies both threads, because a concurrent reader would prevent the database's log (`-wal`) from being emptied.
 void History::erase(const Call& call, std::string who, Answer<NamedPerson> answer) const {
   const auto reader = let_read(RequestKind::erase_person, call);
   if (!reader) return answer(tl::unexpected(reader.error()));

@@ -1,4 +1,4 @@
-// What has happened, by the journal.
+// Queries of the journal.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,14 @@ namespace axisgate::api {
 
 struct HistoryPage {
   std::vector<server::journal::StoredEntry> entries;
-  bool more = false;        // the next page begins after the last of them
-  std::int64_t newest = 0;  // the number of the journal's newest entry, wanted or not; 0: none
+  bool more = false;        // another page begins after the last entry
+  std::int64_t newest = 0;  // number of the journal's newest entry, even if it does not match; 0: none
   bool own_only = false;    // without the entries of other callers: `others_seen_by` of the configuration
 };
 
 struct HistorySummary {
   server::journal::Summary summary;
-  bool own_only = false;  // likewise
+  bool own_only = false;  // as in HistoryPage
 };
 
 struct JournalVerdict {
@@ -32,17 +32,18 @@ struct JournalVerdict {
   server::journal::Head head;
 };
 
-// Thread safe. Reading takes place on a thread of its own, and verifying, which takes as long as the journal is large,
-// on another; on both, callers take turns. A caller whose role is lower than `others_seen_by` reads the entries of
-// their own identity (access/access.h), and those of nobody. Each answers with unauthenticated, not_allowed, or
-// journal_unavailable: none is kept, or the disk refuses.
+// Thread safe. Reads on one thread, and verifies on another, because the time to verify grows with the journal. Callers
+// take turns on both. A caller whose role is lower than `others_seen_by` reads only the entries of their own identity
+// (access/access.h), and entries without a caller. All members fail with unauthenticated, not_allowed, or
+// journal_unavailable if no journal is kept or the disk refuses access.
 class History {
  public:
   static constexpr int kPageMax = 1000;
 
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   History(server::Gateway& gateway, const Admission& admission) : gateway_(gateway), admission_(admission) {}
-  // What waits is answered. The verifier ends first, because a name that is erased there also waits for the reader.
+  // Answers all waiting requests. The verifier ends first, because the erasure of a name on it also waits for the
+  // reader.
   ~History() {
     verifier_.join();
     reader_.join();
@@ -50,21 +51,23 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  // invalid_request; not_allowed also where the filter is for another caller's entries, which this one may not read.
+  // Fails with invalid_request, and with not_allowed also if the filter selects another caller's entries, which this
+  // caller may not read.
   void list(const Call& call, Result<server::journal::Filter> filter, int page_size, Answer<HistoryPage> answer) const;
-  // invalid_request: the span ends before it begins.
+  // Fails with invalid_request if the span ends before it begins.
   void summarize(const Call& call, Result<server::journal::Span> span, Answer<HistorySummary> answer) const;
   void verify(const Call& call, Result<std::optional<server::journal::Head>> noted,
               Answer<JournalVerdict> answer) const;
-  // As Journal::erase(); also in the log, without the name. not_found: no entry names this caller.
+  // Erases a name as Journal::erase() does, and logs that without the name. Fails with not_found if no entry names this
+  // caller.
   void erase(const Call& call, std::string who, Answer<server::journal::NamedPerson> answer) const;
 
  private:
   struct Reader {
     server::journal::Journal* journal;
     server::Caller caller;
-    std::string identity;  // of the caller, whose turn it is
-    std::string only;      // the identity whose entries alone this caller reads, beside nobody's; empty: all
+    std::string identity;  // of the caller, for turns
+    std::string only;      // identity to which the entries are limited, besides those without a caller; empty: no limit
   };
 
   Result<Reader> let_read(RequestKind kind, const Call& call) const;
@@ -72,7 +75,7 @@ class History {
 
   server::Gateway& gateway_;
   const Admission& admission_;
-  // Reading waits for the disk.
+  // Separate threads, because reading waits for the disk.
   mutable FairWorker reader_, verifier_;
 };
 

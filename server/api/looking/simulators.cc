@@ -6,7 +6,7 @@
 
 namespace axisgate::api {
 
-// The simulator runs on a strand of its own, and answers there.
+// The simulator has its own strand, and answers there.
 void Simulators::operate(const Call& call, std::string_view device, const std::string& command,
                          Answer<std::string> answer) const {
   const auto admitted = pipeline_.admit({RequestKind::operate_simulator, call, find_stage(gateway_, device)});

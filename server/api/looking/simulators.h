@@ -1,4 +1,4 @@
-// What a person does at a simulated device.
+// Manual operation of a simulated device.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ namespace axisgate::api {
 // Thread safe.
 class Simulators {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   Simulators(const server::Gateway& gateway, const Pipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
-  // As stage::Simulation::operate(). invalid_request, also where the device is not simulated.
+  // Operates the device as stage::Simulation::operate() does. Fails with invalid_request, also if the device is not
+  // simulated.
   void operate(const Call& call, std::string_view device, const std::string& command, Answer<std::string> answer) const;
 
  private:

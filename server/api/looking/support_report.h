@@ -1,4 +1,4 @@
-// What somebody who helps needs to know, with secrets taken out.
+// Report for a person who helps, without secrets.
 #pragma once
 
 #include <deque>
@@ -16,7 +16,7 @@ class SupportReport final : public Subscription<std::string> {
   SupportReport(server::Gateway& gateway, const DoorReport& door, Streams::Place place);
 
  private:
-  // The recording of one device up to where it was when the report was asked.
+  // A Recording is the recording of one device up to its newest line when the report was requested.
   struct Recording {
     std::string head;
     server::DeviceRecorder::Reader reader;
@@ -30,7 +30,7 @@ class SupportReport final : public Subscription<std::string> {
   Reading read() override;
 
   server::Redactor redactor_;
-  std::string first_;  // everything but the recordings, which may be long
+  std::string first_;  // everything except the recordings, which may be long
   std::deque<Recording> recordings_;
   bool summary_due_ = true;
 };

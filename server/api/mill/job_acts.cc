@@ -15,8 +15,8 @@ namespace {
 using server::Mill;
 using MillTurn = TurnOf<Mill>;
 
-// A repeat does not act: it is answered with the job as it is now. A job that has left the queue meanwhile has ended as
-// `then` says.
+// Answers a repeated request with the job as it is now, without acting. If the job has left the queue meanwhile and
+// `then` is a final state, the answer is a job in that state.
 void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, rml1::JobState then,
                 const Answer<CurrentJob>& answer) {
   repeat_done(known, [&](const Result<void>& done) {
@@ -35,7 +35,7 @@ void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, 
   });
 }
 
-// State of a job after a request of the kind.
+// Returns the state of a job after a request of this kind.
 rml1::JobState outcome_of(RequestKind kind) {
   if (kind == RequestKind::cancel_job) return rml1::JobState::cancelled;
   if (kind == RequestKind::continue_job) return rml1::JobState::paused;

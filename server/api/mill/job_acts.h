@@ -1,4 +1,4 @@
-// How a request acts on one job of a mill: on the strand of its device, once for each request id.
+// Requests that act on one job of a mill, on the strand of its device, once for each request id.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@
 
 namespace axisgate::api {
 
-// Fails with deadline_passed: while a request was posted, or waited for the journal, its caller may have left.
+// Fails with deadline_passed if the request's time ran out while it was posted or waited for the journal.
 Result<void> check_in_time(const TurnOf<server::Mill>& turn);
 
-// Fails with not_found.
+// Returns the job from the mill's queue. Fails with not_found.
 Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber number);
 
 // Thread safe.
@@ -27,8 +27,8 @@ class JobActs {
   JobActs(server::Gateway& gateway, const MillPipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
   using Act = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
-  // Acts on the job of that name. The answer is the job as it is then, once the spool has kept it. A repeated request
-  // acts no more. Fails as MillPipeline::admit() and `act` do, and with not_found; deadline_passed.
+  // Acts on the named job. Answers with the job's new state, once the spool has stored it. A repeated request does not
+  // act again. Fails as MillPipeline::admit() and `act` do, and with not_found or deadline_passed.
   void act(RequestKind kind, const Call& call, std::string_view job, Act act, Answer<CurrentJob> answer) const;
 
  private:

@@ -129,7 +129,7 @@ bool JobCheck::is_accepted(rml1::Warning warning) const {
          std::ranges::find(accepted_before_, warning) != accepted_before_.end();
 }
 
-// All that keeps the job out is said at once: otherwise a person would correct and send it once for each kind.
+// Reports all refused kinds at once, so that the sender need not correct and send the job once for each kind.
 Result<void> JobCheck::judge_warnings() {
   std::vector<std::string> refused, names, unused;
   for (const auto& [warning, found] : warnings_) {
@@ -160,7 +160,7 @@ Result<void> JobCheck::judge_warnings() {
               "accept only what the check of this job shows");
 }
 
-// What is written at once must have room: without flow control its end would be lost.
+// Checks that each piece fits into the buffer: without flow control the end of a longer piece would be lost.
 Result<void> JobCheck::check_pieces() const {
   const auto& [begin, bytes] = pieces_.longest();
   if (bytes <= buffer_) return {};
@@ -175,7 +175,7 @@ std::string JobCheck::place_text(const rml1::Place& place) const {
   return fmt::format("{}line {}, column {}", file_text(), place.line, place.column);
 }
 
-// Which one, where there are several.
+// Returns the prefix that names the current file; empty if the job has only one.
 std::string JobCheck::file_text() const {
   return parts_.size() == 1 ? "" : fmt::format("file {}: ", checked_.parts.size() + 1);
 }

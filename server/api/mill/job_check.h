@@ -1,4 +1,4 @@
-// The check of a job for a mill while its bytes come: each part by itself, as each is sent by itself.
+// Check of a job for a mill while its bytes arrive. Each part is checked separately, because each is sent separately.
 #pragma once
 
 #include <cstddef>
@@ -19,36 +19,37 @@ namespace axisgate::api {
 
 struct PartToSend {
   std::string tool;
-  std::optional<std::uint64_t> bytes{};  // none: all that come; of the only part
+  std::optional<std::uint64_t> bytes{};  // nullopt: all that arrive; only for a job with one part
 };
 
 struct CheckedJob {
   std::vector<rml1::JobPart> parts;
   rml1::Leaves leaves;
   rml1::Extent extent;
-  std::vector<rml1::Warning> accepted;  // in their order; each occurs in the job
+  std::vector<rml1::Warning> accepted;  // in ascending order; each occurs in the job
 };
 
-// A JobPast is what came before a job that is checked.
+// A JobPast is the history of a job that is checked.
 struct JobPast {
-  std::vector<rml1::Warning> accepted{};  // when it was sent first; it may no longer have them
-  rml1::Check* workpiece = nullptr;       // has played the jobs that have cut its workpiece; null: that is new
+  std::vector<rml1::Warning> accepted{};  // warnings when the job was first sent; it may no longer have them
+  rml1::Check* workpiece = nullptr;       // check that has played the jobs that cut its workpiece; null: a new
+                                          // workpiece
 };
 
-// invalid_request, where the mill of that name has no such tool, or there are too many parts, or one without bytes.
+// Fails with invalid_request if the named mill lacks a tool, if there are too many parts, or if a part has no bytes.
 Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector<std::string>& tools,
                          std::string_view mill);
 
-// Fails with invalid_request if one of them is no name of a rml1::Warning.
+// Fails with invalid_request if one of them is not the name of an rml1::Warning.
 Result<void> check_warning_names(const std::vector<std::string>& names);
 
-// Not thread safe. What both calls refuse is invalid_request: the first error of a part that has come whole; a piece
-// that cannot be cut and is longer than the mill's buffer; and bytes that are more or less than those of the parts.
-// finish() also refuses all kinds of warnings that are not accepted, and accepted kinds that the job does not have.
+// Not thread safe. Both functions fail with invalid_request: for the first error of a complete part; for a piece that
+// cannot be divided and is longer than the mill's buffer; and if there are more or fewer bytes than those of the parts.
+// finish() also fails for kinds of warnings that are not accepted, and for accepted kinds that the job does not have.
 class JobCheck {
  public:
-  // All outlive this, but for what `before` refers to, which outlives the first feed(). `buffer`: of the mill, in
-  // bytes. `parts`: at least one. `accepted`: names of warnings.
+  // The referenced objects must outlive this one, but those of `before` only the first feed(). `buffer`: size of the
+  // mill's buffer in bytes. `parts`: at least one. `accepted`: names of warnings.
   JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
            const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted, JobPast before = {});
 
@@ -56,11 +57,11 @@ class JobCheck {
   Result<CheckedJob> finish();
 
  private:
-  // A Found is all of one kind of warning in the job.
+  // A Found collects the warnings of one kind.
   struct Found {
-    std::string first;       // its place and text
-    std::uint64_t more = 0;  // places beyond the first
-    std::string last;        // of these
+    std::string first;       // place and text of the first warning
+    std::uint64_t more = 0;  // number of further places
+    std::string last;        // last of the further places
   };
 
   const PartToSend& part() const { return parts_[checked_.parts.size()]; }
@@ -79,11 +80,11 @@ class JobCheck {
   const std::vector<PartToSend>& parts_;
   const std::vector<std::string>& accepted_;
   const std::vector<rml1::Warning> accepted_before_;
-  std::unique_ptr<rml1::Check> check_;  // of part(); null: all parts have come
+  std::unique_ptr<rml1::Check> check_;  // check of part(); null: all parts are complete
   std::map<rml1::Warning, Found> warnings_;
-  rml1::LongestPiece pieces_;  // of part()
-  std::uint64_t begin_ = 0;    // of part(), in bytes of the job
-  std::uint64_t come_ = 0;     // bytes of part()
+  rml1::LongestPiece pieces_;  // pieces of part()
+  std::uint64_t begin_ = 0;    // byte offset of part() in the job
+  std::uint64_t come_ = 0;     // bytes of part() received up to now
   CheckedJob checked_;
 };
 

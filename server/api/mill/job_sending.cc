@@ -53,7 +53,7 @@ std::vector<PartToSend> parts_of(const rml1::Job& job) {
   return parts;
 }
 
-// Its bytes are those of the whole job: lines count as in its file.
+// Describes the whole job, also for a rest, so that lines are counted as in its file.
 JobToSend copy_of(const rml1::Job& job, std::vector<std::string> accepted) {
   return {.title = job.name,
           .origin = job.setup.origin,
@@ -141,7 +141,7 @@ Result<std::shared_ptr<JobUpload>> JobSending::begin_repeat(const Call& call, co
   return std::shared_ptr<JobUpload>(*std::move(upload));
 }
 
-// The end of a job comes into the spool a moment after it left the queue.
+// Waits for the spool, because it stores the end of a job shortly after the job has left the queue.
 void JobSending::repeat(const Call& call, std::string_view name, JobToRepeat how, Answer<CurrentJob> answer) const {
   const Result<JobName> found = find_job_name(gateway_, name);
   const auto admitted = pipeline_.admit({RequestKind::repeat_job, call, device_of(found)});

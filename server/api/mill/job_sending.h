@@ -1,4 +1,4 @@
-// Jobs that come from a caller, and ended jobs that are queued once more.
+// Jobs that a caller uploads, and ended jobs that are queued again.
 #pragma once
 
 #include <memory>
@@ -17,25 +17,25 @@
 
 namespace axisgate::api {
 
-// A JobToRepeat says how a job that has ended is queued once more.
+// A JobToRepeat says how an ended job is queued again.
 struct JobToRepeat {
-  bool rest = false;                           // from a line of it on
-  LineToChoose from;                           // of the rest
-  std::vector<std::string> accepted_warnings;  // beside those that were accepted for it
+  bool rest = false;                           // queue only the rest, from a line on
+  LineToChoose from;                           // start of the rest
+  std::vector<std::string> accepted_warnings;  // in addition to the warnings accepted for the ended job
 };
 
 // Thread safe. Both members also fail as MillPipeline::admit() does.
 class JobSending {
  public:
-  // The referenced objects must outlive this one. `worker` is shared with what is posted to a mill.
+  // The referenced objects must outlive this one. `worker` is shared with tasks that are posted to a mill.
   JobSending(server::Gateway& gateway, const MillPipeline& pipeline, std::shared_ptr<FairWorker> worker)
       : gateway_(gateway), pipeline_(pipeline), worker_(std::move(worker)) {}
 
-  // Fails with invalid_request if there is no such tool, origin or profile, or no warning of a name, if there are too
-  // many parts, or if the line cannot stream so; as check_same_workpiece() does; queue_full.
+  // Starts an upload. Fails with invalid_request if a tool, origin, profile or warning does not exist, if there are too
+  // many parts, or if the line does not support the streaming; as check_same_workpiece() does; and with queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
-  // Fails as server::ended_job(), server::chosen_rest() and JobUpload::finish() do, and with wrong_mode if it has no
-  // rest.
+  // Queues an ended job again. Fails as server::ended_job(), server::chosen_rest() and JobUpload::finish() do, and with
+  // wrong_mode if the rest is requested and there is none.
   void repeat(const Call& call, std::string_view job, JobToRepeat how, Answer<CurrentJob> answer) const;
 
  private:

@@ -23,7 +23,7 @@ std::string tools_text(const std::vector<rml1::JobPart>& parts) {
   return fmt::format("{}", fmt::join(tools, ", "));
 }
 
-// "unix" is anybody on the Unix socket, "unix anna" one of them.
+// Reports whether the station includes the caller: "unix" includes everybody on the Unix socket, "unix anna" only anna.
 bool is_at_station(const server::Mill& mill, std::string_view who) {
   return std::ranges::any_of(mill.config().station, [who](std::string_view place) {
     return who == place || (who.starts_with(place) && who.substr(place.size()).starts_with(' '));

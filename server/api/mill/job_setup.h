@@ -1,4 +1,4 @@
-// What a job needs at the mill, and who may confirm it there.
+// Requirements of a job at the mill, and the right to confirm it there.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 
 namespace axisgate::api {
 
-// stale_setpoint: the configuration may have changed since the job was sent.
+// Fails with stale_setpoint if the configuration no longer matches the one for which the job was checked.
 Result<void> check_setup(const server::Mill& mill, const rml1::Job& job);
 
-// Returns the name of the machine that has the profile. Empty: empty. Fails with invalid_request if there is none.
+// Returns the name of the machine that has the profile; empty if `profile` is empty. Fails with invalid_request if
+// there is no such profile.
 Result<std::string> machine_with_profile(const server::MillConfig& config, std::string_view profile);
 
-// not_allowed: the caller is not at the mill's station.
+// Fails with not_allowed if the caller is not at the mill's station.
 Result<void> check_at_station(const server::Mill& mill, std::string_view who);
 
 }  // namespace axisgate::api

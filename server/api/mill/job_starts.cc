@@ -12,7 +12,7 @@
 namespace axisgate::api {
 namespace {
 
-// As it was published last. What acts is compared with it on the strand.
+// Returns the job as it was last published. On the strand, `act` also receives the job as it is then.
 Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
   const auto now = mill.newest().get().value;
   const auto found = std::ranges::find(now->jobs, number, &rml1::Job::number);
@@ -21,15 +21,15 @@ Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
               "`axisctl mill queue` lists them");
 }
 
-// The job was not read, since its state was another one, and now it could be. In most cases it still has that state,
-// and the request is refused for it.
+// Returns the problem of a job that was not read because of its published state, although its state allows that now. In
+// most cases the state has not changed, and the request is refused because of it.
 Problem changed_meanwhile(const rml1::Job& job) {
   return {.reason = Reason::wrong_mode,
           .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
           .hint = "ask again"};
 }
 
-// The first command of what is left, and how long that takes.
+// Returns the first command of the rest, and the duration of the rest.
 Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToChoose& from) {
   const auto at = server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
   if (!at) return tl::unexpected(at.error());
@@ -42,7 +42,7 @@ Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToCho
 
 }  // namespace
 
-// It is posted to the mill first: what is published then is no older than what the caller was answered before.
+// Posts to the mill first, so that the published state is no older than the last answer to the caller.
 template <class Read, class Act>
 void JobStarts::read_and_act(RequestKind kind, const Call& call, std::string_view name, Read read, Act act,
                              Answer<CurrentJob> answer) const {

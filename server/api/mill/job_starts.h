@@ -1,4 +1,4 @@
-// Requests that read a whole job before they act on it: its start, and the place where it continues.
+// Requests that read a whole job before they act on it: to start it, and to choose the place where it continues.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace axisgate::api {
 
-// A LineToChoose is the place in its part where a job continues; both count from 1. Line 0: none is named.
+// A LineToChoose is the place in a part where the job continues. Both numbers count from 1. Line 0: no place is named.
 struct LineToChoose {
   std::uint64_t line = 0, column = 1;
 };
@@ -22,7 +22,7 @@ struct LineToChoose {
 // Thread safe. Both members also fail as JobActs::act() and rml1::MillController do.
 class JobStarts {
  public:
-  // The referenced objects must outlive this one. `worker` is shared with what is posted to a mill.
+  // The referenced objects must outlive this one. `worker` is shared with tasks that are posted to a mill.
   JobStarts(server::Gateway& gateway, const MillPipeline& pipeline, const JobActs& acts,
             std::shared_ptr<FairWorker> worker)
       : gateway_(gateway), pipeline_(pipeline), acts_(acts), worker_(std::move(worker)) {}
@@ -32,7 +32,7 @@ class JobStarts {
   void choose_rest(const Call& call, std::string_view job, LineToChoose from, Answer<CurrentJob> answer) const;
 
  private:
-  // Reads the job as it was published last, on the worker, and acts on it with the result.
+  // Reads the newest published job on the worker, then acts on it with the result.
   template <class Read, class Act>
   void read_and_act(RequestKind kind, const Call& call, std::string_view job, Read read, Act act,
                     Answer<CurrentJob> answer) const;

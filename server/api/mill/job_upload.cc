@@ -21,7 +21,7 @@ bool same_parts(const rml1::Job& one, const rml1::Job& other) {
   });
 }
 
-// The job of the first of two requests with one id: the newest that is the same in all.
+// Returns the job of the first of two requests with one id: the newest job that is equal in all members.
 Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
   const auto same = [&](const rml1::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
@@ -65,7 +65,7 @@ JobUpload::JobUpload(RequestKind kind, const Call& call, const MillPipeline::Adm
       check_(mill_.config().profile, options, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings,
              {before_.accepted}) {}
 
-// The check of a workpiece that other jobs have cut plays these first, which takes long.
+// Checks only jobs with a new workpiece. Otherwise the jobs before are played first, which takes long: see finish().
 Result<void> JobUpload::append(std::string_view bytes) {
   if (before_.cut == 0) {
     if (const Result<void> checked = check_.feed(bytes); !checked) return checked;
@@ -106,14 +106,14 @@ std::string JobUpload::facts(const CheckedJob& checked) const {
                            .checked_for = server::checked_for(mill_.config(), job_.origin)});
 }
 
-// The heights of both jobs count from the Z0 with which the one before began.
+// Both jobs count heights from the Z0 that was set when the job before began.
 Result<void> JobUpload::check_surface(std::uint64_t surfaces) const {
   if (!before_.surfaces || *before_.surfaces == surfaces) return {};
   return fail(Reason::stale_setpoint, fmt::format("Z0 was sent to the mill since job {} began", before_.cut),
               "send the job without the one that it continues; if Z0 is still the same surface, accept deep-pass");
 }
 
-// A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
+// Answers a repeated request with the job of the first request, and drops the new upload.
 void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   const Result<CheckedJob> good = checked();
   if (!good) return answer(tl::unexpected(good.error()));

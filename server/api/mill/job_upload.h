@@ -1,4 +1,4 @@
-// A job whose bytes come: checked, kept in the spool, and put into the queue of its mill.
+// Upload of a job: the bytes are checked, stored in the spool, and queued for the mill.
 #pragma once
 
 #include <cstdint>
@@ -22,50 +22,51 @@ namespace axisgate::api {
 
 using MillPipeline = PipelineOf<server::Mill>;
 
-// A job as it is now.
+// A CurrentJob is a job as it is now.
 struct CurrentJob {
   const server::Mill* mill = nullptr;  // never null
   rml1::Job job;
-  server::Moment clock;                 // converts its times for people
-  std::optional<rml1::RunOn> run_on{};  // empty unless it runs
+  server::Moment clock;                 // converts the job's times for people
+  std::optional<rml1::RunOn> run_on{};  // nullopt unless the job runs
 };
 
 // Returns the job in its newest state, or `before` if it has just left the queue.
 CurrentJob current(const TurnOf<server::Mill>& turn, const rml1::Job& before);
 
-// A JobToSend is what is said of a job before its bytes come.
+// A JobToSend describes a job before its bytes arrive.
 struct JobToSend {
   std::string title, origin;
   std::vector<PartToSend> parts;
   std::vector<std::string> accepted_warnings;  // names of rml1::Warning
-  std::optional<rml1::Streaming> streaming{};  // none: as the mill has it
+  std::optional<rml1::Streaming> streaming{};  // nullopt: the mill's default
   std::optional<rml1::Stock> stock{};
-  std::string made_for{};   // the name of a profile; empty: it is judged by the job
-  std::string continues{};  // the name of the job whose workpiece it continues; empty: the workpiece is new
+  std::string made_for{};   // name of a profile; empty: the job itself decides
+  std::string continues{};  // name of the job whose workpiece it continues; empty: a new workpiece
 };
 
-// The JobsBefore are what a new job has in common with jobs that have ended.
+// JobsBefore relates a new job to ended jobs.
 struct JobsBefore {
-  rml1::JobNumber continues = 0;            // as rml1::Job::continues
-  rml1::JobNumber cut = 0;                  // the newest that has cut its workpiece before it begins; 0: none
-  std::optional<std::uint64_t> surfaces{};  // MillController::surfaces() with which that one began; none: any
-  std::vector<rml1::Warning> accepted{};    // with the job that is repeated, beside those of JobToSend
-  std::optional<rml1::Place> from{};        // where the rest of the job that is repeated begins, in `part`
+  rml1::JobNumber continues = 0;            // see rml1::Job::continues
+  rml1::JobNumber cut = 0;                  // newest job that cut the workpiece before; 0: none
+  std::optional<std::uint64_t> surfaces{};  // MillController::surfaces() when job `cut` began; nullopt: any
+  std::vector<rml1::Warning> accepted{};    // accepted for the repeated job, in addition to those of JobToSend
+  std::optional<rml1::Place> from{};        // start of the rest of the repeated job, in `part`
   std::size_t part = 0;
 };
 
-// A JobUpload is used by one thread at a time. If it is destroyed before finish(), nothing is left of it.
+// A JobUpload is used by one thread at a time. If it is destroyed before finish(), nothing of the job is kept.
 class JobUpload {
  public:
-  // `kind`: send_job, or repeat_job.
+  // `kind` is send_job or repeat_job.
   JobUpload(RequestKind kind, const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline,
             FairWorker& worker, JobToSend job, JobsBefore before, const rml1::CheckOptions& options,
             std::unique_ptr<server::spool::Upload> spooled);
 
-  // queue_full, where the spool has no room for more; what JobCheck::feed() refuses.
+  // Fails with queue_full if the spool has no room for more, and as JobCheck::feed() does.
   Result<void> append(std::string_view bytes);
-  // `digest`: of the whole request. What JobCheck::finish() and workpiece_after() refuse; stale_setpoint: Z0 was sent
-  // since the job before began. What `answer` holds outlives this.
+  // Checks, stores and queues the job. `digest` is that of the whole request. Fails as JobCheck::finish() and
+  // workpiece_after() do, and with stale_setpoint if Z0 was sent since the job before began. `answer` must keep this
+  // object alive until it is called.
   void finish(std::string digest, const Answer<CurrentJob>& answer);
 
  private:
@@ -84,7 +85,7 @@ class JobUpload {
   const JobsBefore before_;
   const rml1::CheckOptions options_;
   const std::unique_ptr<server::spool::Upload> spooled_;
-  JobCheck check_;  // of a job whose workpiece is new
+  JobCheck check_;  // used if the workpiece is new
 };
 
 }  // namespace axisgate::api

@@ -14,7 +14,7 @@ namespace {
 using server::Mill;
 using HandTurn = TurnOf<Mill>;
 
-// With the height of a named origin.
+// Returns the act with the height of the named origin.
 Result<rml1::HandAct> act_of(const HandRequest& request, const Mill& mill) {
   if (request.origin.empty()) return request.act;
   const auto* surface = std::get_if<rml1::SetSurface>(&request.act);
@@ -47,7 +47,7 @@ Result<Duration> do_it(const HandTurn& turn, const HandRequest& request) {
   return turn.controller.operate(*act, turn.context, turn.now);
 }
 
-// How long it took at most, the first time.
+// Returns the longest duration, as it was answered to the first request.
 Result<Duration> longest_of(const HandRequest& request, const Mill& mill) {
   const Result<rml1::HandAct> act = act_of(request, mill);
   if (!act) return tl::unexpected(act.error());

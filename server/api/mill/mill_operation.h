@@ -1,4 +1,4 @@
-// What a person does with a mill besides jobs: a step, the Z origin, the spindle, the tool up.
+// Manual operation of a mill, apart from jobs: a step, the Z origin, the spindle, raising the tool.
 #pragma once
 
 #include <string>
@@ -14,18 +14,18 @@ namespace axisgate::api {
 
 struct HandRequest {
   rml1::HandAct act;
-  std::string origin{};  // of SetSurface: a configured origin with a height; empty: none is named
+  std::string origin{};  // for SetSurface: a configured origin with a height; empty: none is named
 };
 
 // Thread safe.
 class MillOperation {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   MillOperation(server::Gateway& gateway, const MillPipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
-  // `request`: or why it cannot be read. The answer: how long it takes at most, by the mill's profile. invalid_request,
-  // where there is no such origin, it has no height, or a height is named, too; those of MillPipeline::admit() and of
-  // MillController::operate().
+  // `request` is the problem if the request could not be read. Answers with the longest duration by the mill's profile.
+  // Fails with invalid_request if the origin does not exist or has no height, or if a height is named, too; and as
+  // MillPipeline::admit() and MillController::operate() do.
   void operate(const Call& call, std::string_view device, const Result<HandRequest>& request,
                Answer<Duration> answer) const;
 

@@ -1,4 +1,4 @@
-// All that can be asked of mills, wired.
+// All subjects of mills, connected.
 #pragma once
 
 #include <memory>
@@ -27,8 +27,8 @@ class MillSubjects {
   ~MillSubjects() { worker_->join(); }
 
  private:
-  // Runs what reads or writes a whole job: neither on a device's strand nor on a thread that serves others. Shared with
-  // what is posted to a mill, which may come to its turn after this object is gone.
+  // Runs the tasks that read or write a whole job, apart from the devices' strands and the threads that serve others.
+  // Shared with tasks that are posted to a mill, because these may run after this object is destroyed.
   const std::shared_ptr<FairWorker> worker_ = std::make_shared<FairWorker>();
   const JobActs acts_;
 

@@ -14,7 +14,7 @@ namespace {
 using server::Mill;
 using MillTurn = TurnOf<Mill>;
 
-// The newest state.
+// A MillWatch streams the newest state.
 class MillWatch final : public Subscription<MillState> {
  public:
   MillWatch(Mill& mill, Streams::Place place) : Subscription(std::move(place)), mill_(mill) {}
@@ -33,7 +33,7 @@ class MillWatch final : public Subscription<MillState> {
   }
 
   Mill& mill_;
-  std::optional<std::uint64_t> taken_;  // the version that was taken last
+  std::optional<std::uint64_t> taken_;  // version that was delivered last
 };
 
 }  // namespace
@@ -99,7 +99,7 @@ void Mills::resume(const Call& call, std::string_view device, Answer<CurrentRun>
       [](const MillTurn& turn) { return turn.controller.resume(turn.context, turn.now); }, std::move(answer));
 }
 
-// No id: an abort always acts, as a stop.
+// Uses no request id: an abort always acts, like a stop.
 void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
   pipeline_.ask({RequestKind::abort_job, call, find_mill(gateway_, device)}, std::move(answer),
                 [](const MillTurn& turn, const Answer<CurrentRun>& respond) {

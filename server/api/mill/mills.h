@@ -1,4 +1,4 @@
-// A mill as a whole: its state, and the job that runs.
+// State of a mill, and its running job.
 #pragma once
 
 #include <functional>
@@ -17,12 +17,12 @@
 
 namespace axisgate::api {
 
-// The job that runs; `running` is empty if none does.
+// A CurrentRun is the running job; `running` is nullopt if no job runs.
 struct CurrentRun {
   const server::Mill* mill = nullptr;  // never null
   std::optional<rml1::RunningJob> running;
   server::Moment clock;
-  std::optional<rml1::PlaceRange> executed{};  // rml1::Job::executed of it
+  std::optional<rml1::PlaceRange> executed{};  // rml1::Job::executed of the running job
 };
 
 struct MillState {
@@ -46,7 +46,8 @@ class Mills {
 
   void pause(const Call& call, std::string_view device, bool raise, Answer<CurrentRun> answer) const;
   void resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
-  // Always acts. Fails with link_down: the abort is sent when the line is back.
+  // Aborts the running job; never refused. Fails with link_down if the line is closed; the abort is then sent when the
+  // line is back.
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
 
  private:

@@ -18,14 +18,14 @@ using MillTurn = TurnOf<server::Mill>;
 
 bool is_admin(const MillTurn& turn) { return turn.caller.role == server::Role::admin; }
 
-// `act`: "cancel".
+// `act` is a verb for the message: "cancel".
 Result<void> check_owner(const MillTurn& turn, const rml1::Job& job, std::string_view act) {
   if (is_admin(turn) || server::is_certainly(turn.caller.who, job.owner)) return {};
   return fail(Reason::not_allowed, fmt::format("{} is not yours", text_of(job)),
               fmt::format("its owner or an administrator can {} it", act));
 }
 
-// Also where the owner is one of several that the queue counts as one caller.
+// Returns the waiting jobs of the caller, or of all callers that the queue counts as the same one.
 Result<std::vector<rml1::JobNumber>> waiting_jobs_of(const std::string& who, const MillTurn& turn) {
   std::vector<rml1::JobNumber> found;
   for (const rml1::Job& job : turn.controller.jobs()) {
@@ -70,7 +70,7 @@ void WaitingJobs::cancel(const Call& call, std::string_view job, Answer<CurrentJ
       std::move(answer));
 }
 
-// What the journal has of the request names no person: the entries of the jobs say by whom each was cancelled.
+// The journal's entry for the request names no person; the entries of the jobs say who cancelled each.
 void WaitingJobs::cancel_all(const Call& call, std::string_view device, std::string who,
                              Answer<CancelledJobs> answer) const {
   std::optional<Problem> fault;

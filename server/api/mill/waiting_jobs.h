@@ -1,4 +1,4 @@
-// Requests on the jobs of a mill that wait, or have been executed.
+// Requests on jobs of a mill that wait or have been executed.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace axisgate::api {
 
-// In the order of the queue; not empty.
+// The cancelled jobs in the order of the queue; at least one.
 struct CancelledJobs {
   const server::Mill* mill = nullptr;  // never null
   std::vector<rml1::JobNumber> jobs;
@@ -28,11 +28,12 @@ class WaitingJobs {
 
   // Fails with not_allowed if the caller is not at the mill's station.
   void confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen, Answer<CurrentJob> answer) const;
-  // Fails with not_allowed if the job is somebody else's.
+  // Fails with not_allowed if the caller is neither the job's owner nor an administrator.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   // Cancels all jobs of `who` that wait to begin. Fails with not_found if there is none.
   void cancel_all(const Call& call, std::string_view device, std::string who, Answer<CancelledJobs> answer) const;
-  // Moves a job to the front for an administrator, or before their other jobs for its owner. Fails as cancel() does.
+  // Moves a job to the front of the queue for an administrator, or before their other jobs for its owner. Fails as
+  // cancel() does.
   void move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
 

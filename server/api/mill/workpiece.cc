@@ -19,10 +19,10 @@ std::string origin_text(std::string_view origin) {
   return origin.empty() ? "the origin of the panel" : fmt::format("the origin {}", origin);
 }
 
-// The newest one last.
+// Returns the newest job last.
 Result<std::vector<rml1::Job>> chain_to(const server::Mill& mill, rml1::JobNumber newest) {
   std::vector<rml1::Job> jobs;
-  // A job continues an earlier one, so this ends.
+  // Each job continues an earlier one, so the loop ends.
   for (rml1::JobNumber number = newest; number != 0; number = jobs.front().continues) {
     Result<rml1::Job> job = server::ended_job(mill.spool(), mill.name(), number);
     if (!job) return tl::unexpected(job.error());

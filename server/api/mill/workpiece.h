@@ -1,4 +1,4 @@
-// The workpiece that jobs of a mill have cut, for the check of a job that continues it.
+// Workpiece that jobs of a mill have cut, for the check of a job that continues it.
 #pragma once
 
 #include <memory>
@@ -10,13 +10,13 @@
 
 namespace axisgate::api {
 
-// Checks whether a job of that origin and stock can continue the workpiece of one that has ended. Fails with wrong_mode
-// if the ended one is not DONE, and with stale_setpoint if its heights count from another Z0.
+// Checks that a job of that origin and stock can continue the workpiece of the ended job. Fails with wrong_mode if the
+// ended job is not DONE, and with stale_setpoint if origin, stock or configuration differ, or if it sets Z0 itself.
 Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& ended, std::string_view origin,
                                   const std::optional<rml1::Stock>& stock);
 
-// Returns a check that has played the job and those whose workpieces it continued, the first one first. Reads whole
-// jobs, so not on a device's strand. Fails with not_found if the spool no longer has one of them.
+// Returns a check that has played the job and all jobs whose workpiece it continued, oldest first. Must not be called
+// on a device's strand, because it reads whole jobs. Fails with not_found if the spool no longer has one of the jobs.
 Result<std::unique_ptr<rml1::Check>> workpiece_after(const server::Mill& mill, rml1::JobNumber job,
                                                      const rml1::CheckOptions& options);
 

@@ -42,7 +42,7 @@ TimePoint without_not_after(Patience patience, const Call& call) {
   return call.deadline.value_or(monotonic_now() + kPatience);
 }
 
-// The asking ends with the call's deadline at the latest.
+// Returns the time until which the request counts: the call's deadline at the latest.
 TimePoint until(Patience patience, const Call& call) {
   const bool says_until = patience == Patience::change || patience == Patience::motion;
   const TimePoint end = says_until && call.not_after ? *call.not_after : without_not_after(patience, call);
@@ -110,7 +110,7 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
                          .session = call.credential.session};
   if (rule.use != Use::nothing) {
     const auto lease = lease_tokens_.open(call.lease_token);
-    // A line of Execute may be a stop, which nothing refuses; other lines are refused where the right is asked.
+    // Execute may carry a stop, which is never refused. Its other lines are refused when the right is checked.
     if (!lease && kind != RequestKind::execute) return tl::unexpected(lease.error());
     context.lease = lease.value_or(server::LeaseTokens::kUnknown);
   }

@@ -1,4 +1,4 @@
-// Who is let in with what: role, quota, and the context with which a device is asked. Every door asks here.
+// Admission of callers: role, quota, and the context with which a device is asked. Every door asks here.
 #pragma once
 
 #include <string>
@@ -17,31 +17,31 @@ namespace axisgate::api {
 // Thread safe.
 class Admission {
  public:
-  // `access` and `lease_tokens` outlive this.
+  // `access` and `lease_tokens` must outlive this object.
   Admission(const server::Access& access, const server::LimitsConfig& limits, const server::LeaseTokens& lease_tokens)
       : access_(access), lease_tokens_(lease_tokens), limits_(limits) {}
 
-  // First of all for a door, before anything of the request is read. `as_called` is what the door calls the request,
-  // for people. unauthenticated, not_allowed, queue_full.
+  // Identifies the caller, and checks role and quota. A door calls it before it reads anything of the request.
+  // `as_called` is the door's name of the request, for messages. Fails with unauthenticated, not_allowed or queue_full.
   Result<server::Caller> let_in(RequestKind kind, const Credential& credential, std::string_view as_called) const;
 
-  // One that is open; gives its place back when the last copy is gone. Null where the kind is not counted. `who` is as
-  // let_in() knew the caller. The admission outlives it.
+  // A Place counts one open request or stream against the caller's quota until its last copy is destroyed. take_place()
+  // returns null if the kind is not counted. `who` is the name from let_in(). The admission must outlive the place.
   using Place = server::IdentityLimits::Place;
   Place take_place(RequestKind kind, const std::string& who);
 
-  // The caller, where one of that role may ask this. A token may have been revoked, or have expired, since let_in().
-  // unauthenticated, not_allowed.
+  // Returns the caller if their role allows the request. A token may have been revoked, or may have expired, since
+  // let_in(). Fails with unauthenticated or not_allowed.
   Result<server::Caller> check_role(RequestKind kind, const Credential& credential) const;
 
-  // Of at most 128 printable ASCII characters. invalid_request.
+  // Checks that the request_id has at most 128 characters, all printable ASCII. Fails with invalid_request.
   static Result<void> check_request_id(const Call& call);
 
-  // As the kind's patience and use have it. invalid_request for a request_id of more than 128 characters, or others
-  // than printable ASCII; lease_lost for what is no token of a lease.
+  // Builds the context of a request by the patience and the use of its kind. Fails with invalid_request if
+  // check_request_id() fails, and with lease_lost if the lease token is invalid.
   Result<stage::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;
 
-  // Of a stop, which nothing in its context refuses: not even a token that was revoked since let_in().
+  // Builds the context of a stop. Never refuses, not even a token that was revoked since let_in().
   stage::RequestContext context_of_stop(const Call& call) const;
 
  private:
@@ -53,7 +53,7 @@ class Admission {
   server::IdentityLimits limits_;
 };
 
-// not_allowed where the line is one that the configuration keeps for administrators.
+// Fails with not_allowed if the configuration keeps the line for administrators and the caller is not one.
 Result<void> check_line(const server::Access& access, const std::string& line, const server::Caller& caller);
 
 }  // namespace axisgate::api

@@ -22,7 +22,7 @@ AxisSet axes_used(const stage::HomeRequest& home, const stage::State& state) {
   return home.axes.empty() ? state.controllable() : home.axes;
 }
 
-// There is one trigger.
+// There is one trigger for all axes.
 AxisSet axes_used(const stage::ScanRequest&, const stage::State& state) { return state.controllable(); }
 
 AxisSet axes_used(const stage::GoToPositionRequest&, const stage::State&) { return AxisSet::all(); }

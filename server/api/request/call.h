@@ -1,4 +1,4 @@
-// What comes with every request: who calls, and what the caller says beside the request itself.
+// Data of every call: the caller, and the values that accompany the request itself.
 #pragma once
 
 #include <cstdint>
@@ -11,37 +11,38 @@
 
 namespace axisgate::api {
 
-// Who calls, as a door knows it before anything was checked.
+// A Credential identifies the caller as the door knows it, before any check.
 struct Credential {
-  std::string who{};                   // by the connection: "unix alice", "cert alice", "tcp 127.0.0.1:39482"
-  std::optional<std::string> token{};  // goes before `who`; empty text: something that is no token
-  bool needs_token = false;            // without a token nobody may call so
-  std::string session{};               // stage::Use::session
+  std::string who{};                   // name by the connection: "unix alice", "cert alice", "tcp 127.0.0.1:39482"
+  std::optional<std::string> token{};  // overrides `who`; an empty text is an invalid token
+  bool needs_token = false;            // calls without a token are refused
+  std::string session{};               // see stage::Use::session
 };
 
-// As in Motion.who, without a check: "unix alice", "token night-scan".
+// Returns the caller's name as in Motion.who, without any check: "unix alice", "token night-scan".
 std::string name_of(const Credential& credential);
 
-// Plain values of one call. Times are monotonic.
+// A Call is the data of one call, as plain values. Times are monotonic.
 struct Call {
   Credential credential{};
-  std::optional<TimePoint> deadline{};   // until when the caller waits; nothing: for as long as it takes
-  std::string request_id{};              // the caller's own; may be empty
-  std::optional<TimePoint> not_after{};  // nothing: as the request's kind has it
-  std::string lease_token{};             // as its holder was given it; empty: none
-  std::uint64_t device_epoch = 0;        // that the caller has in mind; 0: any
-  std::uint64_t frame_epoch = 0;         // likewise
-  bool validate_only = false;            // every check, and nothing is sent
-  std::string digest{};                  // of what is requested, the same for the same; with a request_id
-  std::string request_memory{};          // of a repeat: RequestMemory::mark() before the first time; else empty
+  std::optional<TimePoint> deadline{};   // end of the caller's wait; nullopt: no limit
+  std::string request_id{};              // chosen by the caller; may be empty
+  std::optional<TimePoint> not_after{};  // nullopt: default of the request's kind
+  std::string lease_token{};             // sealed token as its holder received it; empty: none
+  std::uint64_t device_epoch = 0;        // device epoch that the caller expects; 0: any
+  std::uint64_t frame_epoch = 0;         // frame epoch that the caller expects; 0: any
+  bool validate_only = false;            // run every check, but send nothing
+  std::string digest{};                  // of the request, equal for equal requests; set with a request_id
+  std::string request_memory{};          // for a repeat: RequestMemory::mark() from before the first attempt; else
+                                         // empty
 };
 
-// Called once, from any thread, also before the member that took it has returned. Dropped where the device's line is
-// closed before.
+// An Answer is called once, from any thread, possibly before the member that took it has returned. It is dropped if the
+// device's line is closed first.
 template <class Outcome>
 using Answer = std::function<void(Result<Outcome>)>;
 
-// What is wrong with a request as it is written, where something is.
+// Returns the problem of a request that could not be read; nullopt if it was read.
 template <class Request>
 std::optional<Problem> fault_of(const Result<Request>& written) {
   return written ? std::nullopt : std::optional(written.error());

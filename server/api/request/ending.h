@@ -1,11 +1,11 @@
-// Why a call that comes while the daemon ends is not served.
+// Refusal of calls that arrive while the daemon ends.
 #pragma once
 
 #include "device/core/problem.h"
 
 namespace axisgate::api {
 
-// daemon_ending: nothing was done.
+// Returns the problem daemon_ending. The call has not had any effect.
 inline Problem daemon_ending() {
   return {
       .reason = Reason::daemon_ending, .message = "the daemon is ending", .hint = "connect again when it runs again"};

@@ -1,4 +1,4 @@
-// Reads the event bus one fact at a time, in portions behind the scenes.
+// Reader of the event bus that returns one fact at a time; internally it fetches several.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace axisgate::api {
 
-// Not thread safe: it belongs to one subscription and is used under its mutex.
+// A FactReader is not thread safe. It belongs to one subscription and is used under the subscription's mutex.
 class FactReader {
  public:
-  // From revision `from` on; 0: from the oldest that is kept. `gateway` outlives this.
+  // Reads from revision `from` on; 0: from the oldest kept one. `gateway` must outlive this object.
   FactReader(server::Gateway& gateway, std::uint64_t from)
       : bus_(gateway.events()), slow_readers_(gateway.metrics().slow_readers()) {
     go_to(from);
@@ -27,7 +27,8 @@ class FactReader {
     taken_ = 0;
     was_kept_ = !bus_.read(revision, 0).compacted;
   }
-  // Facts of a device are published on its strand only: none lies between what is seen there now and what is read next.
+  // Skips all published facts. A device publishes its facts on its strand only, so a caller on that strand misses none
+  // after the state that is seen there.
   void go_to_newest() { go_to(bus_.newest_revision() + 1); }
 
   struct Compacted {
@@ -41,7 +42,7 @@ class FactReader {
       portion_ = bus_.read(portion_.next, kPortion);
       taken_ = 0;
       if (portion_.compacted) {
-        // A reader that requested what was not kept even then came late, and has not read slowly.
+        // A reader that requested a revision that was already dropped came late; it was not a slow reader.
         if (was_kept_) slow_readers_.Increment();
         return Compacted{portion_.next};
       }
@@ -56,11 +57,11 @@ class FactReader {
   const server::EventBus& bus_;
   prometheus::Counter& slow_readers_;
   server::EventBus::Reading portion_;
-  bool was_kept_ = true;  // where the reading began
+  bool was_kept_ = true;  // the first revision to read was still kept
   std::size_t taken_ = 0;
 };
 
-// How a stream ends whose reader was too slow, or requested another run's revision.
+// Returns the end of a stream whose reader was too slow, or requested a revision of another run.
 inline StreamEnd compacted_at(std::uint64_t resume) {
   return {Problem{.reason = Reason::compacted,
                   .message = "the events from the requested revision on are not all kept",

@@ -1,4 +1,4 @@
-// Long tasks of many people on one thread.
+// Worker thread for long tasks of many callers.
 #pragma once
 
 #include <deque>
@@ -14,8 +14,8 @@ class thread_pool;
 
 namespace axisgate::api {
 
-// Thread safe. Runs one task at a time. Identities take turns, so that nobody waits for all that somebody else has
-// requested. The tasks of one identity run in their order.
+// Thread safe. Runs one task at a time. Identities take turns, so that no caller waits for all tasks of another. The
+// tasks of one identity run in their order.
 class FairWorker {
  public:
   using Task = std::function<void()>;
@@ -23,18 +23,18 @@ class FairWorker {
   FairWorker();
   ~FairWorker();
 
-  // Runs what waits. What is posted afterwards is dropped.
+  // Runs the waiting tasks. Tasks that are posted afterwards are dropped.
   void join();
 
-  // `identity`: server::identity_of() whom the task is for.
+  // `identity` is the server::identity_of() of the caller who requested the task.
   void post(const std::string& identity, Task task);
 
  private:
   void run_next();
 
   std::mutex mutex_;
-  std::map<std::string, std::deque<Task>> waiting_;         // by identity; none is empty
-  std::deque<std::string> turns_;                           // of those in waiting_
+  std::map<std::string, std::deque<Task>> waiting_;         // by identity; no queue is empty
+  std::deque<std::string> turns_;                           // identities in waiting_, next turn first
   const std::unique_ptr<boost::asio::thread_pool> thread_;  // one thread
 };
 

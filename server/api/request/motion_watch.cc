@@ -109,7 +109,7 @@ void MotionSubscription::read_changes() {
     }
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
     const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
-    const bool newer = record.revision > shown_;  // the answer to a request may show more than the next events
+    const bool newer = record.revision > shown_;  // the answer to a request may be newer than the next events
     if (change != nullptr && newer && change->motion.id == followed_ && record.device == device_->name()) {
       set_due(CurrentMotion(*device_, change->motion, record.revision, record.clock));
     }

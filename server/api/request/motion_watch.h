@@ -1,4 +1,4 @@
-// The stream of one motion: as it is now and at every change, until its outcome.
+// Stream of one motion: its state now and at every change, until its outcome.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@
 
 namespace axisgate::api {
 
-// A motion as it is now.
+// A CurrentMotion is a motion as it is now.
 struct CurrentMotion {
-  // On the device's strand.
+  // Must be called on the device's strand.
   CurrentMotion(server::Stage& its_device, stage::Motion its_motion)
       : device(its_device.name()),
         motion(std::move(its_motion)),
         revision(its_device.motion_revision(motion.id)),
         clock(its_device.motion_clock(motion.id)) {}
-  // As a fact had it.
+  // Takes the motion from a fact.
   CurrentMotion(const server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact,
                 const server::Moment& its_clock)
       : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact), clock(its_clock) {}
 
-  // Of a request that came before. Likewise on the strand.
+  // Returns the answer to a repeated request. Must be called on the device's strand.
   static CurrentMotion repeated(const server::Stage& its_device, stage::Motion its_motion) {
     const server::Moment its_clock = its_device.motion_clock(its_motion.id);
     CurrentMotion current(its_device, std::move(its_motion), 0, its_clock);
@@ -40,42 +40,43 @@ struct CurrentMotion {
 
   std::string_view device;  // its name in the configuration; valid as long as the gateway
   stage::Motion motion;
-  std::uint64_t revision = 0;  // of the newest fact about it; 0: not known
-  bool is_repeated = false;    // the answer to a request that came before
-  server::Moment clock;        // by which its times are shown
+  std::uint64_t revision = 0;  // of the newest fact about the motion; 0: unknown
+  bool is_repeated = false;    // answers a repeated request
+  server::Moment clock;        // converts its times for display
 };
 
-// The motion: of the controller, or else as its newest fact that is kept has it, also of an earlier run; or not_found.
-// On the device's strand.
+// Returns the motion from the controller, or from the newest kept fact about it, also of an earlier run. Fails with
+// not_found. Must be called on the device's strand.
 Result<CurrentMotion> find_motion(const server::EventBus& bus, server::Stage& device,
                                   const stage::StageController& controller, stage::MotionId id);
 
-// The motion of a request that came before, as it is or as it ended; or what the request came to instead. On the
-// device's strand.
+// Returns the motion of a repeated request, as it is or as it ended, or the problem that the first request resulted in.
+// Must be called on the device's strand.
 Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& known,
                                 const stage::StageController& controller);
 
-// What the streams of one motion share: they follow its changes, and where a reader was too slow for all of them, the
-// motion as it is now takes the place of those that were missed.
+// A MotionSubscription follows the changes of one motion. If its reader is too slow to receive all of them, the present
+// state of the motion replaces the missed changes.
 class MotionSubscription : public Subscription<CurrentMotion> {
  protected:
-  // `gateway` outlives this.
+  // `gateway` must outlive this object.
   MotionSubscription(server::Gateway& gateway, Streams::Place place)
       : Subscription(std::move(place)), gateway_(gateway), reader_(gateway, 0) {}
 
   void begin() override { woken_by(gateway_.events()); }
   Reading read() override;
 
-  // On the device's strand: no change from now on is missed.
+  // Must be called on the device's strand; every later change is then delivered.
   void follow_from_now();
-  // On the device's strand. Follows it from then on; or ends with what kept it from starting.
+  // Follows the motion from now on, or ends with the problem that kept it from starting. Must be called on the device's
+  // strand.
   void show(server::Stage& device, const Result<stage::Motion>& motion);
-  // Likewise, of a request that came before.
+  // Does the same for a repeated request. Must be called on the device's strand.
   void show_repeated(server::Stage& device, const stage::StageController& controller,
                      const Result<server::journal::RequestMemory::Known>& known);
-  // Ends with that problem, after what is due; the first end counts.
+  // Ends the stream with `problem`, after due_. Only the first end counts.
   void end(const Problem& problem);
-  // Fetches the motion as it is now.
+  // Fetches the present state of the motion.
   void look(server::Stage& device, stage::MotionId id);
 
   server::Gateway& gateway_;
@@ -89,8 +90,8 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   server::Stage* device_ = nullptr;  // null: no motion is followed
   stage::MotionId followed_ = 0;
   std::optional<CurrentMotion> due_;
-  std::uint64_t shown_ = 0;       // its revision, or that of the one before
-  std::optional<StreamEnd> end_;  // after what is due
+  std::uint64_t shown_ = 0;       // revision of the motion that was set due last
+  std::optional<StreamEnd> end_;  // delivered after due_
 };
 
 class MotionWatch final : public MotionSubscription {

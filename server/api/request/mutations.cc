@@ -21,7 +21,7 @@ using server::journal::RequestChange;
 using server::journal::RequestMemory;
 using Json = nlohmann::json;
 
-// The first answer counts: of the disk, or that it has taken too long.
+// A Waiting passes on the first answer only: that of the disk, or the timeout.
 class Waiting {
  public:
   explicit Waiting(Mutation::Then then) : then_(std::move(then)) {}
@@ -91,7 +91,7 @@ void Mutation::failed(const Problem& problem) {
   if (key_) gateway_.requests().acted(*key_);
 }
 
-// A motion of which something was written has ended by now, and stays.
+// A motion of which any line was written has ended by now, and stays remembered.
 void Mutation::refused(const Problem& problem) {
   auto change = key_ ? gateway_.requests().refused(*key_, problem) : std::nullopt;
   const bool stays = key_ && !change;
@@ -102,7 +102,7 @@ void Mutation::refused(const Problem& problem) {
   if (journal != nullptr) journal->append_refusal(entry(EntryKind::request_refused, body));
 }
 
-// What uses no axes has entries of its own, such as those of leases: here only its id is noted.
+// Requests that use no axes have other entries, such as those of leases, so only their id is noted here.
 void Mutation::ended(std::string answer, std::string_view outcome) {
   auto change = key_ ? gateway_.requests().ended(*key_, std::move(answer)) : std::nullopt;
   if (!change && !uses_axes(kind_)) return;

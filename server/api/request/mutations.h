@@ -1,4 +1,4 @@
-// Requests that change something: each acts once, also when it comes again, and is in the journal before it acts.
+// Requests that change something. Each acts once, even if it is repeated, and is in the journal before it acts.
 #pragma once
 
 #include <functional>
@@ -15,21 +15,22 @@
 
 namespace axisgate::api {
 
-// One of them, from its coming to what became of it. Thread safe; its members are called in their order.
+// A Mutation is one such request, from its arrival to its result. Thread safe; its members are called in their order.
 class Mutation {
  public:
-  // `gateway` outlives it. `begun`: what the memory of requests keeps of it; nothing without a request_id.
+  // `gateway` must outlive this object. `begun`: entry for the request memory; nullopt without a request_id.
   Mutation(server::Gateway& gateway, const server::Device& device, RequestKind kind, std::string who,
            std::optional<server::journal::RequestChange> begun);
 
-  // Writes it to the journal; `then` is called when it is on the disk: journal_unavailable where it is not, so that
-  // nothing must be sent. False: it need not wait, and `then` is not called.
+  // Writes the request to the journal. Calls `then` when the entry is on the disk, or with journal_unavailable if it is
+  // not; then nothing may be sent. Returns false if the request need not wait; `then` is not called in this case.
   using Then = std::function<void(const Result<void>&)>;
   bool intend(const stage::RequestContext& context, std::string_view what, Then then);
 
-  // It was done. `answer`: journal/answers.h; nothing: its motion runs, whose end is the answer.
+  // Notes that the request was executed. `answer`: see journal/answers.h; nullopt: a motion runs, and its end is the
+  // answer.
   void acted(std::optional<std::string> answer);
-  // It was not done, or not all of it.
+  // Notes that the request was not executed, or not completely.
   void failed(const Problem& problem);
 
  private:
@@ -44,18 +45,18 @@ class Mutation {
   const std::string who_;
   std::optional<server::journal::RequestMemory::Key> key_;
   std::optional<server::journal::RequestChange> begun_;  // until it is written
-  bool intended_ = false;                                // it is written, or the disk has refused it
+  bool intended_ = false;                                // the entry is written, or the disk has refused it
 };
 using MutationPtr = std::shared_ptr<Mutation>;  // never null
 
 // Thread safe.
 class Mutations {
  public:
-  // It outlives this.
+  // `gateway` must outlive this object.
   explicit Mutations(server::Gateway& gateway) : gateway_(gateway) {}
 
-  // Null: a request with its id came before, and `known` is called with what became of it, from any thread.
-  // request_id_reused, request_memory_lost.
+  // Returns null if the request id is known; `known` is then called, from any thread, with the earlier result. Fails
+  // with request_id_reused or request_memory_lost.
   using OnKnown = server::journal::RequestMemory::OnKnown;
   Result<std::shared_ptr<Mutation>> begin(RequestKind kind, const Call& call, const server::Device& device,
                                           const std::string& who, OnKnown known) const;

@@ -19,7 +19,7 @@ constexpr std::string_view kStops = "/stops/";
 constexpr std::string_view kJobs = "/jobs/";
 constexpr std::string_view kPositions = "/positions/";
 
-// "devices/{d}" and the number behind `between`; nothing where the name has not this form.
+// Splits a name into "devices/{d}" and the number after `between`. Returns nullopt if the name has another form.
 std::optional<std::pair<std::string_view, std::uint64_t>> numbered(std::string_view name, std::string_view between) {
   const std::size_t split = name.find(between);
   if (split == std::string_view::npos) return std::nullopt;

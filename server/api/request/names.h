@@ -1,4 +1,4 @@
-// Devices, motions and positions by the names that callers use.
+// Names of devices, motions, stops, jobs and positions, as callers use them.
 #pragma once
 
 #include <string>
@@ -19,16 +19,16 @@ std::string stop_name(std::string_view device_of_config, stage::StopId stop);   
 std::string position_name(std::string_view device_of_config,
                           std::string_view position);  // "devices/{d}/positions/{name}"
 
-// "devices/a, devices/b": all devices, for people.
+// Returns the names of all devices for people: "devices/a, devices/b".
 std::string device_names(const server::Gateway& gateway);
 
-// invalid_request where the name is not "devices/{d}"; unknown_device.
+// Fails with invalid_request if the name is not "devices/{d}", and with unknown_device if no device has it.
 Result<server::Device*> find_device(const server::Gateway& gateway, std::string_view name);
-// invalid_request where the name is not "devices/{d}", or is that of another family of devices; unknown_device where no
-// device has that name.
+// Fails with invalid_request if the name is not "devices/{d}", or if the device is of another family; and with
+// unknown_device if no device has the name.
 Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_view name);
 
-// The same for mills.
+// Does the same for mills.
 Result<server::Mill*> find_mill(const server::Gateway& gateway, std::string_view name);
 
 std::string job_name(std::string_view device_of_config, rml1::JobNumber job);  // "devices/{d}/jobs/{number}"
@@ -36,34 +36,35 @@ struct JobName {
   server::Mill* device = nullptr;  // never null
   rml1::JobNumber number = 0;
 };
-// invalid_request where the name is not "devices/{d}/jobs/{number}", unknown_device. Whether there is such a job is not
-// looked up.
+// Fails with invalid_request if the name is not "devices/{d}/jobs/{number}", and with unknown_device. Does not check
+// that the job exists.
 Result<JobName> find_job_name(const server::Gateway& gateway, std::string_view name);
 
 struct MotionName {
   server::Stage* device = nullptr;  // never null
   stage::MotionId id = 0;
 };
-// invalid_request where the name is not "devices/{d}/motions/{id}", unknown_device. Whether there is such a motion is
-// not looked up.
+// Fails with invalid_request if the name is not "devices/{d}/motions/{id}", and with unknown_device. Does not check
+// that the motion exists.
 Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name);
 
 struct StopName {
   server::Stage* device = nullptr;  // never null
   stage::StopId id = 0;
 };
-// Fails with invalid_request if the name is not "devices/{d}/stops/{id}", and with unknown_device. Does not look up
-// whether there is such a stop.
+// Fails with invalid_request if the name is not "devices/{d}/stops/{id}", and with unknown_device. Does not check that
+// the stop exists.
 Result<StopName> find_stop_name(const server::Gateway& gateway, std::string_view name);
 
 struct PositionName {
   server::Stage* device = nullptr;  // never null
   std::string name;
 };
-// invalid_request where it is not "devices/{d}/positions/{name}", unknown_device. Likewise.
+// Fails with invalid_request if the name is not "devices/{d}/positions/{name}", and with unknown_device. Does not check
+// that the position exists.
 Result<PositionName> find_position_name(const server::Gateway& gateway, std::string_view name);
 
-// The device of a name that was found.
+// Returns the device of a name that was found.
 template <class Name>
 auto device_of(const Result<Name>& name) -> Result<decltype(Name::device)> {
   if (!name) return tl::unexpected(name.error());

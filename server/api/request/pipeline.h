@@ -1,5 +1,5 @@
-// The way of every request to a device but a stop: role, device, context; on the device's strand the right to all axes,
-// the request's own checks, and then either the answer to validate_only or the operation itself.
+// The path of every request to a device except a stop: role, device and context; then, on the device's strand, the
+// right to all axes and the request's own checks; then the answer to validate_only, or the operation itself.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@
 
 namespace axisgate::api {
 
-// A request that was let in.
+// An admitted request.
 template <class Device>
 struct AdmittedTo {
   Device* device = nullptr;  // never null
@@ -31,7 +31,7 @@ struct AdmittedTo {
 };
 using Admitted = AdmittedTo<server::Stage>;
 
-// Such a request on its device's strand.
+// An admitted request on its device's strand.
 template <class Device>
 struct TurnOf {
   Device& device;
@@ -42,21 +42,21 @@ struct TurnOf {
 };
 using Turn = TurnOf<server::Stage>;
 
-// What a door hands in.
+// A request as the door passes it in.
 template <class Device>
 struct AskedOf {
   RequestKind kind;
-  const Call& call;                // copied as far as it is needed
-  Result<Device*> device;          // or why there is none
-  std::optional<Problem> fault{};  // of how the rest is written
+  const Call& call;                // copied as far as needed
+  Result<Device*> device;          // or the problem of finding it
+  std::optional<Problem> fault{};  // problem of reading the rest of the request
 };
 using Asked = AskedOf<server::Stage>;
 
-// deadline_passed for what would start a motion after its not_after: while it was posted, its time ran out. What waits
-// on the device longer than that is refused there.
+// Fails with deadline_passed if the request starts a motion and its time ran out while it was posted. A request that
+// waits on the device beyond its not_after is refused there.
 Result<void> check_deadline(RequestKind kind, const stage::RequestContext& context, TimePoint now);
 
-// To one family of devices. Thread safe.
+// A PipelineOf leads to one family of devices. Thread safe.
 template <class Device>
 class PipelineOf {
  public:
@@ -66,28 +66,29 @@ class PipelineOf {
   template <class Outcome>
   using Repeat = RepeatOf<Device, Outcome>;
 
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   PipelineOf(const Admission& admission, const Mutations& mutations) : admission_(admission), mutations_(mutations) {}
 
-  // In this order: unauthenticated, not_allowed; invalid_request or unknown_device; invalid_request for a request_id;
-  // the fault of the rest.
+  // Fails, in this order, with unauthenticated or not_allowed; invalid_request or unknown_device; invalid_request for
+  // the request_id; as Admission::context_of() does; and with Asked::fault.
   Result<Admitted> admit(const Asked& asked) const;
 
-  // Posts to the device. There `prepare` makes what is to be done of the request and the device's state, or refuses;
-  // `check` does the checks of the device, also where validate_only ends the request there; `describe` says what it is,
-  // for the log and the journal; `begin` does it and answers.
+  // Posts the request to the device. There `prepare` computes the operation from the request and the device's state, or
+  // refuses it; `check` runs the device's checks, and is the last step of validate_only; `describe` returns the text
+  // for the log and the journal; `begin` starts the operation and answers.
   //   Result<Prepared> prepare(const Turn&), several times
   //   Result<void> check(const Turn&, const Prepared&)
   //   std::string describe(const Prepared&)
   //   void begin(const Turn&, Prepared, const Answer<Outcome>&)
-  // The answer to validate_only is an empty Outcome. A request whose id has come before is answered by `repeat`.
+  // The answer to validate_only is an empty Outcome. `repeat` answers a request whose id is known.
   template <class Outcome, class Prepare, class Check, class Describe, class Begin>
   void run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe, Begin begin,
            std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Device, Outcome>()) const;
 
-  // What changes something, and answers in its own way. `ready` is called on the strand, before it is in the journal
-  // and, where that has taken time, again: whether it may be done now, and what it is. `begin` does it, and says what
-  // became of it. `refuse` and `repeat` are called from any thread.
+  // Runs a request that changes something and answers by itself. `ready` is called on the strand before the request is
+  // written to the journal, and again afterwards if that took time; it returns the description of the operation, or
+  // refuses it. `begin` starts the operation, and reports its result to the mutation. `refuse` and `repeat` are called
+  // from any thread.
   //   Result<std::string> ready(const Turn&)
   //   void begin(const Turn&, const MutationPtr&)
   //   void refuse(const Problem&)
@@ -95,13 +96,14 @@ class PipelineOf {
   template <class Ready, class Begin, class Refuse, class Again>
   void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const;
 
-  // The same for what moves and changes nothing on the device: it waits for no journal, and has no validate_only.
+  // Does the same for a request that neither moves nor changes anything on the device: it does not wait for the
+  // journal, and validate_only is ignored.
   //   void begin(const Turn&, const Answer<Outcome>&)
   template <class Outcome, class Begin>
   void once(const Asked& asked, Answer<Outcome> answer, Begin begin,
             std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Device, Outcome>()) const;
 
-  // For what has nothing to check there, and no validate_only.
+  // Runs a request without checks on the device; validate_only is ignored.
   //   void begin(const Turn&, const Answer<Outcome>&)
   template <class Outcome, class Begin>
   void ask(const Asked& asked, Answer<Outcome> answer, Begin begin) const;
@@ -114,10 +116,10 @@ class PipelineOf {
   Result<Identified> identify(const Asked& asked) const;
   Result<Admitted> admit(const Asked& asked, Identified identified) const;
   static Result<void> check_right(RequestKind kind, const Turn& turn);
-  // Whether it may be done now.
+  // Reports whether the operation may begin now.
   static Result<void> check_now(RequestKind kind, const Turn& turn);
-  // What `ready` says. Of what starts a motion, first whether the device is up: plans need what only a device that is
-  // up can say, so without this check the plan's reason would hide that the line is down.
+  // Returns the result of `ready`. A request that starts a motion first requires that the device is up: plans need data
+  // that only a connected device has, so the problem of the plan would hide that the line is down.
   template <class Ready>
   static Result<std::string> ready_if_up(RequestKind kind, const Turn& turn, Ready& ready);
 
@@ -125,7 +127,7 @@ class PipelineOf {
   const Mutations& mutations_;
 };
 using Pipeline = PipelineOf<server::Stage>;
-// For what is requested of every device, whatever its kind.
+// For requests that all kinds of devices support.
 using DevicePipeline = PipelineOf<server::Device>;
 
 template <class Device>
@@ -194,7 +196,7 @@ void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refus
   };
   Result<Admitted> admitted = admit(asked, *identified);
   if (!admitted) return refuse_it(admitted.error());
-  // Shared by the two visits to the strand.
+  // Both visits to the strand share this.
   struct Visit {
     Admitted admitted;
     Ready ready;

@@ -1,4 +1,4 @@
-// How a request is answered that came before under the same id; and how the first answer is remembered for that.
+// Answers to repeated requests, and how the first answer is remembered for them.
 #pragma once
 
 #include <functional>
@@ -18,18 +18,18 @@ namespace axisgate::api {
 
 using Known = server::journal::RequestMemory::Known;
 
-// A motion that has started. Nothing: it was to be checked only.
+// A motion that has started; nullopt after a check with validate_only.
 using StartedMotion = std::optional<CurrentMotion>;
 
-// Answers a repeat with what the first request came to. From any thread.
+// Answers a repeated request with the result of the first one. Called from any thread.
 template <class Device, class Outcome>
 using RepeatOf = std::function<void(Device& device, const Result<Known>& known, const Answer<Outcome>& answer)>;
 
-// Where the device's line is closed meanwhile, the answer is dropped, as any other.
+// The answer is dropped, like any other, if the device's line is closed meanwhile.
 void repeat_motion(server::Stage& device, const Result<Known>& known, const Answer<StartedMotion>& answer);
 void repeat_done(const Result<Known>& known, const Answer<void>& answer);
 
-// Of outcomes that can be remembered as they are.
+// Returns the usual answer to a repeated request, for outcomes that can be remembered unchanged.
 template <class Device, class Outcome>
 RepeatOf<Device, Outcome> usual_repeat() {
   if constexpr (std::is_void_v<Outcome>) {
@@ -40,7 +40,7 @@ RepeatOf<Device, Outcome> usual_repeat() {
   }
 }
 
-// Nothing, of a motion: its end is its answer.
+// Returns the answer to remember; nullopt for a motion, because its end is the answer.
 template <class Outcome>
 std::optional<std::string> remembered(const Result<Outcome>&) {
   return server::journal::answer_done();
@@ -50,7 +50,7 @@ inline std::optional<std::string> remembered(const Result<StartedMotion>&) {
   return std::nullopt;
 }
 
-// The same answer, which is remembered before it is given.
+// Returns an Answer that remembers the outcome before it passes it on.
 template <class Outcome>
 Answer<Outcome> settling(MutationPtr mutation, Answer<Outcome> answer) {
   return [mutation = std::move(mutation), answer = std::move(answer)](Result<Outcome> outcome) {

@@ -80,7 +80,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
 }};
 // clang-format on
 
-// rule_of() finds a row by its number.
+// rule_of() uses the kind's number as the index of its row.
 constexpr bool in_order() {
   for (std::size_t i = 0; i < kRules.size(); ++i) {
     if (kRules[i].kind != static_cast<Kind>(i)) return false;

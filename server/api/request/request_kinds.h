@@ -1,5 +1,5 @@
-// Every kind of request, and the rules for it: one table, which admission, pipeline, streams and audit read. The same
-// table for people stands in README.md.
+// All kinds of requests and their rules, in one table for admission, pipeline, streams and audit. README.md has the
+// same table for people.
 #pragma once
 
 #include <cstddef>
@@ -72,46 +72,47 @@ enum class RequestKind {
   move_job,
   report_job_done,
   operate_mill,
-  ask_door,    // what a door says of itself in one answer: its health
+  ask_door,    // question about the door itself with one answer: its health
   watch_door,  // the same as a stream
-  unlisted,    // no kind that this table knows
+  unlisted,    // not in this table
 };
 inline constexpr std::size_t kRequestKinds = static_cast<std::size_t>(RequestKind::unlisted) + 1;
 
-// What the request takes of what its caller may have open at once.
+// Count that a request takes from its caller's limit of open requests and streams.
 enum class Quota {
-  none,     // neither counted nor refused: what a stop needs
-  request,  // one answer
+  none,     // neither counted nor refused, as stops require
+  request,  // request with one answer
   stream,
-  outcome,  // a stream that follows one motion: some are kept for these
-  path,     // a stream that holds a whole path in memory
+  outcome,  // a stream that follows one motion; some places are reserved for these
+  path,     // a stream that keeps a whole path in memory
 };
 
-// What of the call's context counts, and for how long the request does.
+// Time for which a request counts, and the parts of the call's context that apply to it.
 enum class Patience {
-  stop,      // as question; the lease counts, and no context refuses it
+  stop,      // as question; the lease applies, and no context refuses it
   question,  // until the call's deadline, or for 20 s
-  change,    // until not_after; without one until the call's deadline, or for 20 s
+  change,    // until not_after; without it until the call's deadline, or for 20 s
   motion,    // until not_after, or for 5 s; the call's deadline ends it earlier
 };
 
-// What the request does with a device's axes.
+// Use that a request makes of a device's axes.
 enum class Use {
   nothing,
-  lease,     // the caller's own lease, without the right to the axes
-  axes,      // the device asks for the right to them: lease, latch and epochs, as it begins and with each line
-  all_axes,  // likewise; the pipeline asks for all axes first, since the device may not be asked at all
+  lease,     // the caller's own lease, but not the right to the axes
+  axes,      // the device checks the right (lease, latch, epochs) when the request begins, and with each line
+  all_axes,  // as axes; the pipeline checks all axes first, because the device may not be asked at all
 };
 
 struct Rule {
   RequestKind kind;
-  std::string_view name;  // "change settings", for people; also in the journal, so that it stays
+  std::string_view name;  // "change settings", for people; never changed, because the journal has it
   server::Role least_role;
-  server::KeptRequest kept;  // under which `admin_commands` of the configuration may keep it for administrators
+  server::KeptRequest kept;  // key in `admin_commands` of the configuration that restricts the request to
+                             // administrators
   Quota quota;
   Patience patience;
   Use use;
-  bool audited;  // the log says who did it
+  bool audited;  // the log says who requested it
 };
 
 const Rule& rule_of(RequestKind kind);

@@ -35,7 +35,7 @@ void OpenStream::cut_off(StreamCut cut) {
   if (then) then();
 }
 
-// Under the lock.
+// Called under the lock.
 std::optional<Problem> Streams::full(Quota quota, const std::string& who) const {
   const Counts& all = open_->all;
   const auto refused = [](std::string message) {

@@ -1,4 +1,4 @@
-// How many streams may be open at once, over all callers and doors, and whose they are.
+// Limit of open streams over all callers and doors, and the caller of each.
 #pragma once
 
 #include <array>
@@ -15,25 +15,25 @@
 
 namespace axisgate::api {
 
-// How the daemon ends a stream.
+// A StreamCut says how the daemon ends a stream.
 struct StreamCut {
   Problem why;
-  bool after_what_is_due = false;  // the reader still receives what the stream has to say at that time
+  bool after_what_is_due = false;  // the reader still receives the items that are due at that time
 };
 
-// One open stream. Thread safe.
+// An OpenStream is one open stream. Thread safe.
 class OpenStream {
  public:
-  // `then` is called once, by the thread that ends the stream, or at once where it has been ended already.
+  // Calls `then` once, on the thread that ends the stream; immediately if the stream was already ended.
   void on_cut_off(std::function<void()> then);
-  // How the daemon ended it; nullopt as long as it may continue.
+  // Returns how the daemon ended the stream; nullopt while it may continue.
   std::optional<StreamCut> cut_off() const;
-  // Ends it. The first time counts.
+  // Ends the stream. Only the first call counts.
   void cut_off(StreamCut cut);
 
  private:
   mutable std::mutex mutex_;
-  std::unique_ptr<const StreamCut> cut_;  // null for nearly all, of which there are thousands
+  std::unique_ptr<const StreamCut> cut_;  // null for most streams, of which there are thousands
   std::function<void()> then_;
 };
 
@@ -41,14 +41,14 @@ class OpenStream {
 class Streams {
  public:
   static constexpr int kStreamsMax = 4096;
-  // Kept for those that follow one motion, so that nobody's dashboards keep a caller from the outcome of a move.
+  // Reserved for streams that follow one motion, so that other streams never keep a caller from the outcome of a move.
   static constexpr int kOutcomesKept = 512;
-  // A path is held whole, up to tens of megabytes: fewer of them than of other streams.
+  // Lower than the limit of other streams, because a path takes up to tens of megabytes of memory.
   static constexpr int kPathsMax = 32;
-  static constexpr int kPathsOfOneMax = 8;  // of one caller
+  static constexpr int kPathsOfOneMax = 8;  // per caller
 
   struct Limits {
-    int streams = kStreamsMax;  // in all
+    int streams = kStreamsMax;  // total
     int outcomes_kept = kOutcomesKept;
     int paths = kPathsMax;
     int paths_of_one = kPathsOfOneMax;
@@ -57,19 +57,19 @@ class Streams {
   Streams() : Streams(Limits()) {}
   explicit Streams(const Limits& limits) : limits_(limits), open_(std::make_shared<Open>()) {}
 
-  // Gives its place back when the last copy is gone. May outlive the limit.
+  // A Place counts one open stream until its last copy is destroyed. May outlive the Streams.
   using Place = std::shared_ptr<OpenStream>;
 
-  // One more of this caller, as the quota of the kind has it. queue_full where no place is left;
+  // Takes a place for the caller, by the quota of the kind. Fails with queue_full if no place is left, and with
   // daemon_ending after end_all().
   Result<Place> take(RequestKind kind, const std::string& who);
 
-  // Ends all that this caller has open, from now on.
+  // Ends all streams that the caller has open at this time.
   void cut_off(const std::string& who, const Problem& why);
 
-  // Ends all streams with daemon_ending, after what is due on them. Later ones are refused.
+  // Ends all streams with daemon_ending, after the items that are due. Later streams are refused.
   void end_all();
-  // daemon_ending after end_all(); nullopt before.
+  // Returns daemon_ending after end_all(), and nullopt before.
   std::optional<Problem> ending() const;
 
  private:

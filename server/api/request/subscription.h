@@ -1,5 +1,5 @@
-// One reader's stream: of a device's state, a motion, leases, events, a recording ... All streams of all doors are
-// subscriptions.
+// Stream of one reader: states of a device, a motion, leases, events, a recording and so on. All streams of all doors
+// are subscriptions.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,26 @@
 
 namespace axisgate::api {
 
-// How a stream ends.
+// A StreamEnd says how a stream ends.
 struct StreamEnd {
-  std::optional<Problem> problem{};       // nothing: in order
-  std::optional<std::uint64_t> resume{};  // with compacted: the oldest revision that can be had
+  std::optional<Problem> problem{};       // nullopt: ended normally
+  std::optional<std::uint64_t> resume{};  // with compacted: the oldest available revision
 };
 
-// Pulled by its reader: next() is called when the item before has been taken, so nothing queues up for a slow one. Held
-// by shared pointers, since a timer or a device's answer may come after the reader has gone. Thread safe.
+// A Subscription is pulled by its reader: next() is called when the item before was taken, so nothing queues up for a
+// slow reader. Shared pointers keep it, because a timer or a device's answer may come after the reader has gone. Thread
+// safe.
 template <class Item>
 class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
  public:
-  struct Nothing {};  // before `wake` is called
+  struct Nothing {};  // until `wake` is called
   using Reading = std::variant<Nothing, Item, StreamEnd>;
 
   virtual ~Subscription() = default;
 
-  // Once, before the first next(). `wake` is called from any thread whenever next() may have something new, perhaps
-  // once for many items, at the latest when this object goes; it may call next(). It must not hold this object.
+  // Opens the stream; called once, before the first next(). `wake` is called from any thread whenever next() may return
+  // something new, possibly once for many items, at the latest when this object is destroyed; it may call next(). It
+  // must not keep this object alive.
   void open(std::function<void()> wake) {
     wake_ = std::move(wake);
     if (place_) {
@@ -47,7 +49,7 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
     begin();
   }
 
-  // The next item, the end, or nothing before `wake` is called. Nothing follows the end.
+  // Returns the next item, the end, or Nothing until `wake` is called. No item follows the end.
   Reading next() {
     const std::lock_guard lock(mutex_);
     const auto cut = place_ ? place_->cut_off() : std::nullopt;
@@ -57,10 +59,11 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
     return reading;
   }
 
-  // Its caller has gone without a word, or may not continue: what must not continue without its caller ends.
+  // Called when the caller has disconnected without ending the stream, or may not continue. Ends everything that must
+  // not continue without its caller.
   virtual void break_off() {}
 
-  // The reader has gone, in order or not. Once; no wake-up from the gateway's side comes after it has returned.
+  // Called once when the reader has gone, normally or not. No wake-up from the gateway comes after it returns.
   void close() {
     wake_up_.reset();
     left();
@@ -69,28 +72,28 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
  protected:
   explicit Subscription(Streams::Place place) : place_(std::move(place)) {}
 
-  // What wakes it is arranged here: open() has been called.
+  // Arranges the wake-ups. Called by open().
   virtual void begin() = 0;
   // Called under mutex_.
   virtual Reading read() = 0;
   virtual void left() {}
 
-  // Not under mutex_.
+  // Must not be called under mutex_.
   void wake() const { wake_(); }
 
-  // `source` is anything with subscribe(): it wakes the reader from now on.
+  // Lets `source`, any object with subscribe(), wake the reader from now on.
   template <class Source>
   void woken_by(Source& source) {
     wake_up_ = source.subscribe([this] { wake(); });
   }
 
-  // A shared pointer to the whole object.
+  // Returns a shared pointer to the whole object.
   template <class Derived>
   std::shared_ptr<Derived> self() {
     return std::static_pointer_cast<Derived>(this->shared_from_this());
   }
 
-  std::mutex mutex_;  // of the derived class's state
+  std::mutex mutex_;  // guards the state of the derived class
 
  private:
   const Streams::Place place_;
@@ -98,7 +101,7 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
   std::unique_ptr<server::WakeUps::Subscription> wake_up_;
 };
 
-// A stream, or why there is none.
+// A stream, or the problem that prevented it.
 template <class Item>
 using Opened = Result<std::shared_ptr<Subscription<Item>>>;
 

@@ -1,4 +1,4 @@
-// A lease that is kept alive over a stream.
+// Lease that is kept alive over a stream.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,22 @@
 
 namespace axisgate::api {
 
-// One message is taken in when the one before has been answered. Its reader receives the lease as it is after each.
-// Thread safe.
+// A LeaseKeeping receives a message once the message before was answered. Its reader receives the lease after each
+// message. Thread safe.
 class LeaseKeeping final : public Subscription<server::Lease> {
  public:
-  // `gateway` outlives this.
+  // `gateway` must outlive this object.
   LeaseKeeping(const server::Gateway& gateway, Streams::Place place)
       : Subscription(std::move(place)), gateway_(gateway) {}
 
-  // The lease lives on for another time_to_live. The stream ends with invalid_request, unknown_device or lease_lost.
+  // Extends the lease by another time_to_live. Ends the stream with invalid_request, unknown_device or lease_lost if
+  // that fails.
   void keep(std::string_view device, std::string_view lease_token);
-  // What came is no message of this stream, which ends with `problem`. The lease then lives on as its terms have it.
+  // Handles an invalid message: ends the stream with `problem`. The lease then lasts as its terms say.
   void refuse(const Problem& problem);
-  // The caller has ended the stream in order: nothing is kept alive any more, and nothing was lost.
+  // Ends the stream at the caller's request. The lease is no longer kept alive, but does not count as lost.
   void finish();
-  // The caller has gone without a word: what follows is as the lease's terms have it.
+  // Handles a caller who disconnected without ending the stream: the lease's terms decide what follows.
   void break_off() override;
 
  private:
@@ -37,8 +38,8 @@ class LeaseKeeping final : public Subscription<server::Lease> {
 
   // Under mutex_.
   std::optional<server::Lease> due_;
-  std::optional<StreamEnd> end_;       // after what is due
-  server::Device* kept_on_ = nullptr;  // null: nothing has been kept alive yet
+  std::optional<StreamEnd> end_;       // delivered after due_
+  server::Device* kept_on_ = nullptr;  // null: no lease was kept alive yet
   server::LeaseToken kept_ = 0;
 };
 

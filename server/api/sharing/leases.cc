@@ -19,7 +19,7 @@ constexpr Duration kWaitMax = std::chrono::hours(24);
 constexpr Duration kExpectedUseMax = std::chrono::hours(24 * 365);
 constexpr std::size_t kPurposeMax = 200;
 
-// Of whole seconds: what is less than one more counts as `most`.
+// Checks a span with a resolution of 1 s: less than 1 s beyond `most` counts as `most`.
 Result<Duration> check_span(Duration span, Duration most, std::string_view field) {
   using std::chrono::seconds;
   if (span >= Duration::zero() && std::chrono::floor<seconds>(span) <= most) return std::min(span, most);
@@ -63,7 +63,7 @@ Answer<std::optional<Lease>> answering(std::shared_ptr<LeaseSeeker> seeker) {
   return [seeker = std::move(seeker)](Result<std::optional<Lease>> lease) { (void)seeker->answer(std::move(lease)); };
 }
 
-// A caller who has gone meanwhile does not keep what nobody would give back.
+// Releases the lease if the caller has disconnected meanwhile, because nobody else would release it.
 server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::Device& device) {
   return [seeker = std::move(seeker), &device](const Result<Lease>& lease) {
     if (!lease) return static_cast<void>(seeker->answer(tl::unexpected(lease.error())));
@@ -73,7 +73,7 @@ server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::
   };
 }
 
-// What was stopped since stays stopped.
+// Reports no latches, because axes that were stopped after the first request stay latched.
 void repeat_rearm(server::Device&, const Result<Known>& known, const Answer<std::vector<server::Latch>>& answer) {
   known ? answer(std::vector<server::Latch>()) : answer(tl::unexpected(known.error()));
 }
@@ -95,13 +95,13 @@ class LeaseWatch final : public Subscription<Board> {
   }
 
   server::Device& device_;
-  std::optional<std::uint64_t> taken_;  // the version that was taken last
+  std::optional<std::uint64_t> taken_;  // version that was delivered last
 };
 
 }  // namespace
 
-// Without the memory of requests: a lease whose answer does not reach its caller is given back, so that a repeat seeks
-// one again.
+// Does not use the request memory: a lease whose answer does not reach its caller is released, so that a repeated
+// request acquires one again.
 void Leases::acquire(const Call& call, std::string_view device, const Result<LeaseWish>& wish, Duration wait,
                      const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);

@@ -1,4 +1,4 @@
-// Who may move what: leases, and stops that stay stopped.
+// Leases, and the latches that stops set.
 #pragma once
 
 #include <functional>
@@ -19,53 +19,53 @@
 
 namespace axisgate::api {
 
-// A lease as its holder wants it.
+// A LeaseWish describes the lease that a caller requests.
 struct LeaseWish {
-  stage::AxisSet axes{};                   // none: all
-  std::optional<Duration> time_to_live{};  // 1 s to a day; nothing: 10 s
+  stage::AxisSet axes{};                   // empty: all
+  std::optional<Duration> time_to_live{};  // 1 s to 24 h; nullopt: 10 s
   server::AtLoss at_loss = server::AtLoss::stop;
-  std::optional<Duration> expected_use{};  // a year at most
+  std::optional<Duration> expected_use{};  // at most 365 days
   std::string purpose{};                   // at most 200 printable ASCII characters
 };
 
-// A caller who waits for a lease and may go meanwhile. Thread safe; kept until the answer.
+// A LeaseSeeker is a caller who waits for a lease and may disconnect meanwhile. Thread safe; kept until the answer.
 class LeaseSeeker {
  public:
   virtual ~LeaseSeeker() = default;
 
-  // Once, from any thread. Nothing: it was to be checked only. False: the caller has gone, and the lease is given back.
+  // Delivers the answer; called once, from any thread. `lease` is nullopt after a check with validate_only. Returns
+  // false if the caller has disconnected; the lease is then released.
   virtual bool answer(Result<std::optional<server::Lease>> lease) = 0;
-  // `leave` is called once when the caller goes before the answer, at once if that has happened already.
+  // Registers `leave`, which is called once if the caller disconnects before the answer; immediately if that has
+  // already happened.
   virtual void when_gone(std::function<void()> leave) = 0;
 };
 
-// To what every device has.
-
 using Board = std::shared_ptr<const server::LeaseBoard>;  // never null
 
-// Thread safe. The members' problems are those of DevicePipeline::admit() and of server::Leases.
+// Thread safe. The members fail as DevicePipeline::admit() and server::Leases do.
 class Leases {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Leases(server::Gateway& gateway, const Admission& admission, const DevicePipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
-  // Waits for as long as `wait` says, a day at most; 0: not at all. invalid_request.
+  // Waits for the lease for at most `wait`, at most 24 h; 0: does not wait. Fails with invalid_request.
   void acquire(const Call& call, std::string_view device, const Result<LeaseWish>& wish, Duration wait,
                const std::shared_ptr<LeaseSeeker>& seeker) const;
   void take_over(const Call& call, std::string_view device, const Result<LeaseWish>& wish,
                  const std::shared_ptr<LeaseSeeker>& seeker) const;
 
-  // The lease of these is the call's.
+  // release() and hand_over() act on the lease of the call.
   void release(const Call& call, std::string_view device, Answer<void> answer) const;
   void hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const;
-  // Answers with what was lifted.
+  // Answers with the latches that have ended.
   void rearm(const Call& call, std::string_view device, Answer<std::vector<server::Latch>> answer) const;
 
-  // queue_full.
+  // Fails with queue_full.
   Result<std::shared_ptr<LeaseKeeping>> keep_alive(const Call& call) const;
-  // Who holds what and who waits, now and at every change; without tokens for no reader to see: the door leaves them
-  // out. A slow reader sees fewer changes.
+  // Streams the holders and the waiting callers, now and at every change. The door leaves out the tokens, which no
+  // reader may see. A slow reader sees fewer changes.
   Opened<Board> watch(const Call& call, std::string_view device) const;
 
  private:

@@ -17,7 +17,7 @@ void TokenRetry::start(const Problem& why) {
 void TokenRetry::try_later() {
   if (waiting_.exchange(true)) return;
   after_(kPause, [self = shared_from_this()] {
-    // Before the try: a revocation that fails meanwhile begins another.
+    // Reset before the attempt: a revocation that fails meanwhile schedules another one.
     self->waiting_ = false;
     const Result<bool> written = self->tokens_.write_again();
     if (!written) self->try_later();

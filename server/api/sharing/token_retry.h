@@ -1,4 +1,4 @@
-// Revocations that could not be written to the disk are tried again until they can.
+// Repeated attempts to write revocations that could not be written to the disk.
 #pragma once
 
 #include <atomic>
@@ -12,16 +12,16 @@
 
 namespace axisgate::api {
 
-// Thread safe. The log says when it begins, and when the tokens are on disk.
+// Thread safe. Logs when the attempts begin, and when the tokens are on the disk.
 class TokenRetry : public std::enable_shared_from_this<TokenRetry> {
  public:
   static constexpr Duration kPause = std::chrono::seconds(2);
   using After = std::function<void(Duration, std::function<void()>)>;  // Gateway::after()
 
-  // `tokens` outlives the tasks that `after` receives; this need not.
+  // `tokens` must outlive the tasks that are passed to `after`; this object need not.
   static std::shared_ptr<TokenRetry> make(server::Tokens& tokens, After after);
 
-  // `why` is what Tokens::revoke() has answered.
+  // `why` is the problem from Tokens::revoke().
   void start(const Problem& why);
 
  private:
@@ -30,7 +30,7 @@ class TokenRetry : public std::enable_shared_from_this<TokenRetry> {
 
   server::Tokens& tokens_;
   const After after_;
-  std::atomic<bool> waiting_ = false;  // so that ten revocations are one try
+  std::atomic<bool> waiting_ = false;  // one attempt is scheduled, which serves all revocations up to then
 };
 
 }  // namespace axisgate::api

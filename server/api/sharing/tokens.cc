@@ -16,13 +16,13 @@ using server::Calendar;
 
 constexpr auto kLife = std::chrono::days(90);
 
-// Bounded before it is added to a time.
+// Returns the life limited to just above the maximum, so that adding it to a time cannot overflow.
 std::chrono::seconds life_of(const NewToken& wanted) {
   const std::chrono::seconds longest = server::Tokens::kLifeMax + std::chrono::seconds(1);
   return std::clamp(wanted.life.value_or(kLife), std::chrono::seconds(0), longest);
 }
 
-// An error, although the token is refused from now on: a restart of the daemon would accept it again.
+// Returns an error although the token is refused from now on, because a restart of the daemon would accept it again.
 Result<void> not_written(const std::string& token, const Problem& why) {
   return fail(
       Reason::internal,

@@ -1,4 +1,4 @@
-// Who calls, and tokens.
+// Identity of the caller, and bearer tokens.
 #pragma once
 
 #include <chrono>
@@ -20,31 +20,32 @@ namespace axisgate::api {
 struct NewToken {
   std::string name;
   server::Role role = server::Role::operator_;
-  // server::Tokens::kLifeMax at most; nothing: 90 days.
+  // At most server::Tokens::kLifeMax; nullopt: 90 days.
   std::optional<std::chrono::seconds> life{};
 };
 
 struct CreatedToken {
-  std::string secret;  // nobody can read it a second time
+  std::string secret;  // cannot be read a second time
   server::Token token;
 };
 
 // Thread safe.
 class Tokens {
  public:
-  // All outlive this, and `access` the gateway.
+  // The referenced objects must outlive this one; `access` must also outlive the gateway.
   Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission, Streams& streams);
 
   Result<server::Caller> caller(const Call& call) const;
-  // Nothing: it was to be checked only. As server::Tokens::create().
+  // Creates a token as server::Tokens::create() does. Returns nullopt after a check with validate_only.
   Result<std::optional<CreatedToken>> create(const Call& call, const Result<NewToken>& wanted) const;
-  // Oldest first.
+  // Returns the oldest token first.
   Result<std::vector<server::Token>> list(const Call& call) const;
-  // As server::Tokens::revoke(); after internal, the revocation holds and is written as soon as possible.
+  // Revokes a token as server::Tokens::revoke() does. After internal, the token is revoked, and the revocation is
+  // written as soon as possible.
   Result<void> revoke(const Call& call, const std::string& name) const;
 
  private:
-  // What the token's caller has open ends, and so do its leases.
+  // Ends all streams and leases of the token's caller.
   void cut_off(const std::string& token, const std::string& by) const;
 
   server::Gateway& gateway_;

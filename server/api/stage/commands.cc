@@ -22,10 +22,10 @@ constexpr std::size_t kLineBytesMax = 256;
 constexpr Duration kTimeout = std::chrono::seconds(20);
 constexpr Duration kTimeoutMax = std::chrono::minutes(10);
 
-// What the controller says itself as the time runs out is more exact than that it has run out.
+// Extra time for the controller to report a more exact problem than a timeout.
 constexpr Duration kTimeoutGrace = std::chrono::milliseconds(100);
 
-// What only this subject bounds; the lines themselves are the controller's to judge.
+// Checks only the limits of this subject; the controller checks the lines themselves.
 Result<void> check_lines(const std::vector<std::string>& lines) {
   if (lines.empty() || lines.size() > kLinesMax) {
     return fail(Reason::invalid_request,
@@ -51,7 +51,7 @@ Problem timed_out(Duration timeout) {
           .hint = "what moves continues: WatchDevice shows it, Stop ends it"};
 }
 
-// One transaction under way.
+// An Execution is one transaction in progress.
 class Execution final : public Subscription<ExecuteEvent> {
  public:
   Execution(server::Gateway& gateway, const Pipeline& pipeline, Call call, const Admitted& admitted,
@@ -99,7 +99,7 @@ class Execution final : public Subscription<ExecuteEvent> {
     });
   }
 
-  // On the strand. What was answered to no line at all may not have been sent.
+  // Runs on the strand. If no line was answered, possibly none was sent.
   void remember(const ExecuteEvent& event, Mutation& mutation) {
     events_.push_back(event);
     if (event.kind != ExecuteEvent::Kind::ended) return;
@@ -122,7 +122,7 @@ class Execution final : public Subscription<ExecuteEvent> {
     wake();
   }
 
-  // The first end counts.
+  // Only the first end counts.
   void end(const std::optional<Problem>& problem) {
     {
       const std::lock_guard lock(mutex_);
@@ -148,11 +148,11 @@ class Execution final : public Subscription<ExecuteEvent> {
   const Call call_;
   server::Stage& device_;
   stage::ExecuteRequest request_;     // on the device's strand
-  std::vector<ExecuteEvent> events_;  // likewise
+  std::vector<ExecuteEvent> events_;  // on the device's strand
   const Duration timeout_;
-  // Bounded by the transaction: a reply for each of its lines and a completion for each axis they move.
+  // Bounded by the transaction: one reply for each line, and one completion for each axis that the lines move.
   std::deque<ExecuteEvent> due_;
-  std::optional<StreamEnd> end_;  // after what is due
+  std::optional<StreamEnd> end_;  // delivered after due_
   std::unique_ptr<server::Timeout> time_out_;
 };
 
@@ -164,7 +164,7 @@ Result<std::vector<stage::CommandInfo>> Commands::list(const Call& call, std::st
   return admitted->device->kind().commands();
 }
 
-// Every such line is refused before any is sent.
+// Refuses the whole transaction for one forbidden line, before any line is sent.
 Result<void> Commands::check(const Transaction& transaction, const server::Caller& caller) const {
   if (const auto good = check_lines(transaction.lines); !good) return good;
   for (const std::string& line : transaction.lines) {

@@ -1,4 +1,4 @@
-// A controller's own commands, for what the other subjects do not cover.
+// Commands of the controller itself, for functions that the other subjects do not cover.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@
 
 namespace axisgate::api {
 
-// The lines of one transaction, and for how long its replies and completions are waited for: above 0, 10 minutes at
-// most; nothing: 20 s.
+// A Transaction is a list of command lines, with the time limit for their replies and completions: above 0, at most 10
+// minutes; nullopt: 20 s.
 struct Transaction {
   std::vector<std::string> lines;
   std::optional<Duration> timeout{};
@@ -28,15 +28,16 @@ struct Transaction {
 // Thread safe.
 class Commands {
  public:
-  // All outlive this, and `access` the gateway.
+  // The referenced objects must outlive this one; `access` must also outlive the gateway.
   Commands(server::Gateway& gateway, const server::Access& access, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), access_(access), pipeline_(pipeline), streams_(streams) {}
 
-  // In the order of the controller's manual.
+  // Returns the commands in the order of the controller's manual.
   Result<std::vector<stage::CommandInfo>> list(const Call& call, std::string_view device) const;
 
-  // Each line's reply, then the completions that they caused. Ends with deadline_passed at the timeout. Null: it was to
-  // be checked only. invalid_request, malformed_line, out_of_range, not_allowed, and as Kind::check_lines().
+  // Streams the reply of each line, then the completions that the lines caused. Ends with deadline_passed at the
+  // timeout. Returns null after a successful check with validate_only. Fails with invalid_request, malformed_line,
+  // out_of_range or not_allowed, and as Kind::check_lines() does.
   Opened<stage::ExecuteEvent> execute(const Call& call, std::string_view device, Transaction transaction) const;
 
  private:

@@ -86,7 +86,7 @@ void Jog::begin_on(const Turn& turn, const JogAxes& axes, const MutationPtr& mut
                                 });
 }
 
-// It never starts twice: the reader sees the first one.
+// Never starts a second jog: the reader sees the first one.
 void Jog::repeat(server::Stage& device, const Result<Known>& known) {
   device.post([self = self<Jog>(), &device, known](const StageController& controller, TimePoint) {
     self->over_ = true;
@@ -99,7 +99,7 @@ Result<void> Jog::post_renewal(server::Stage& device, const Result<JogAxes>& axe
   device.post([self = self<Jog>(), axes = request_axes(*axes)](StageController& controller, TimePoint now) {
     if (self->motion_ == 0 || self->over_) return;
     const Result<void> renewed = controller.renew_jog(self->motion_, axes, now);
-    // Of a jog that has ended its reader receives the outcome.
+    // If the jog has ended, the reader receives the outcome instead.
     if (!renewed && renewed.error().reason != Reason::not_found) self->refuse(renewed.error());
   });
   return {};
@@ -111,7 +111,7 @@ void Jog::break_off() {
   {
     const std::lock_guard lock(mutex_);
     broken_off_ = true;
-    if (jogged_ == nullptr) return;  // nothing was requested yet
+    if (jogged_ == nullptr) return;  // no request yet
   }
   stop(kBrokenOff);
 }

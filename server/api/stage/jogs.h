@@ -1,4 +1,4 @@
-// Jogs: axes run for as long as their caller says so.
+// Jogs: axes that run for as long as their caller requests it.
 #pragma once
 
 #include <memory>
@@ -19,29 +19,31 @@ namespace axisgate::api {
 
 struct JogAxis {
   int axis = 0;                     // 1 to 3
-  std::optional<int> direction{};   // 1 or -1; counts in start() only
-  std::optional<Quantity> speed{};  // per second; nothing: the axis's own
+  std::optional<int> direction{};   // 1 or -1; used by start() only
+  std::optional<Quantity> speed{};  // per second; nullopt: the axis's own speed
 };
 
-// One jog: its messages are taken in here, and its reader receives the motion at every change. Messages count as they
-// come, whether the reader reads or not. Thread safe.
+// A Jog receives the messages of one jog, and its reader receives the motion at every change. Messages take effect when
+// they arrive, whether or not the reader reads. Thread safe.
 class Jog final : public MotionSubscription {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   Jog(server::Gateway& gateway, const Pipeline& pipeline, Streams::Place place)
       : MotionSubscription(gateway, std::move(place)), pipeline_(pipeline) {}
 
-  // The first message. False: it was refused, the stream ends with the problem, and no message counts any more.
+  // Handles the first message. Returns false if the message was refused: the stream ends with the problem, and later
+  // messages have no effect.
   bool start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes);
-  // Every other message: the jog continues, for `axes` at other speeds. False: the jog is stopped, and so on.
+  // Handles a later message: the jog continues, with the new speeds of `axes`. Returns false if the message was
+  // refused: the jog is stopped, and the stream ends with the problem.
   bool renew(const Result<std::vector<JogAxis>>& axes);
 
-  // What came is no message of a jog: the stream ends with `problem`, and the jog is stopped.
+  // Handles an invalid message: ends the stream with `problem`, and stops the jog.
   void refuse_part(const Problem& problem) { (void)refuse(problem); }
 
-  // The caller wants it to end.
+  // Ends the jog at the caller's request.
   void finish();
-  // The caller has gone without a word.
+  // Stops the jog after the caller has disconnected without ending it.
   void break_off() override;
 
  private:
@@ -57,19 +59,19 @@ class Jog final : public MotionSubscription {
   server::Stage* jogged_ = nullptr;            // under mutex_; null: no message yet
   bool broken_off_ = false, refused_ = false;  // under mutex_
 
-  // On the device's strand.
+  // Used on the device's strand.
   stage::MotionId motion_ = 0;  // 0: none
-  bool over_ = false;           // the caller wants no motion any more
+  bool over_ = false;           // the caller no longer wants motion
 };
 
 // Thread safe.
 class Jogs {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Jogs(server::Gateway& gateway, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
 
-  // queue_full.
+  // Fails with queue_full.
   Result<std::shared_ptr<Jog>> open(const Credential& caller) const;
 
  private:

@@ -1,4 +1,4 @@
-// Motions with one request and one answer; and what became of any motion.
+// Motions with one request and one answer, and queries of all motions.
 #pragma once
 
 #include <optional>
@@ -16,31 +16,32 @@
 
 namespace axisgate::api {
 
-// Thread safe. Each answers with what kept it from starting, or when it has started: with the problems of
+// Thread safe. Each answers when the motion has started, or with the problem that kept it from starting: those of
 // Pipeline::admit(), of Permission, and of the device.
 class Motions {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Motions(server::Gateway& gateway, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
 
   void move(const Call& call, std::string_view device, Result<Move> move, Answer<StartedMotion> answer) const;
-  // Of no axes named, all. unknown_axis, link_down.
+  // Homes the axes; empty: all. Fails with unknown_axis or link_down.
   void home(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
             Answer<StartedMotion> answer) const;
   void return_to_origin(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                         Answer<StartedMotion> answer) const;
-  // The context in `scan` is filled in here.
+  // Fills in the context of `scan`.
   void scan(const Call& call, std::string_view device, Result<stage::ScanRequest> scan,
             Answer<StartedMotion> answer) const;
 
-  // not_found.
+  // Fails with not_found.
   void get(const Call& call, std::string_view motion, Answer<CurrentMotion> answer) const;
-  // Oldest first.
+  // Returns the oldest motion first.
   void list(const Call& call, std::string_view device, Answer<std::vector<CurrentMotion>> answer) const;
-  // The motion now and at every change, until its outcome; a slow reader sees fewer changes. Ends with not_found.
+  // Streams the motion now and at every change, until its outcome; a slow reader sees fewer changes. Ends with
+  // not_found if there is no such motion.
   Opened<CurrentMotion> watch(const Call& call, std::string_view motion) const;
-  // Needs no lease, as a stop. not_found.
+  // Needs no lease, like a stop. Fails with not_found.
   void cancel(const Call& call, std::string_view motion, Answer<void> answer) const;
 
  private:
@@ -53,7 +54,7 @@ class Motions {
   Streams& streams_;
 };
 
-// Answers with the motion, or with what kept it from starting.
+// Returns a callback that answers with the motion, or with the problem that kept it from starting.
 stage::StageController::OnStarted answering(server::Stage& device, Answer<StartedMotion> answer);
 
 }  // namespace axisgate::api

@@ -18,7 +18,7 @@ constexpr int kInputsMax = 63;                          // IN1 to IN6 (manual 95
 constexpr std::array<int, 2> kHelixPlane = {1, 2};      // manual 74) to 76), 80) to 82): A is the only axis setting
 constexpr int kCircleTurns = 1, kHelixTurnsMax = 1000;  // manual 71), 74)
 
-// What goes before a segment, while the axes are stationary.
+// Checks the wait before a segment, while the axes are stationary.
 Result<void> check_halt(const stage::Segment& segment) {
   using std::chrono::milliseconds;
   constexpr auto most = std::chrono::duration_cast<milliseconds>(stage::Segment::kRestMax).count();
@@ -79,7 +79,8 @@ bool Path::add(Result<stage::Segment> segment) {
   return taken || end(taken.error());
 }
 
-// Admitted now, so that nobody sends a long path for nothing; and again by run(), from which it counts.
+// Admits the call now, so that no caller sends a long path in vain. run() admits it again, and its time counts from
+// then.
 Result<void> Path::take_head(const Call& call, std::string_view device) {
   if (call_) return fail(Reason::invalid_request, "a path has one header, and a second one came");
   const auto admitted = pipeline_.admit({RequestKind::run_path, call, find_stage(gateway_, device)});
@@ -168,7 +169,7 @@ void Path::run_on(const Turn& turn, const MutationPtr& mutation) {
                            });
 }
 
-// On the device's strand.
+// Must be called on the device's strand.
 void Path::repeat(server::Stage& device, const StageController& controller, const Result<Known>& known) {
   const auto motion = known ? motion_of(*known, controller) : tl::unexpected(known.error());
   if (!motion) {
@@ -223,7 +224,7 @@ Path::Reading Path::read() {
   return Nothing{};
 }
 
-// Up to the next fact about this path.
+// Reads up to the next fact about this path.
 void Path::read_progress() {
   while (!due_ && !end_) {
     const FactReader::Reading reading = reader_.next();

@@ -1,4 +1,4 @@
-// Paths: taken in whole, then run; their reader receives the progress until the outcome.
+// Paths: received completely, then run; the reader receives the progress until the outcome.
 #pragma once
 
 #include <memory>
@@ -20,33 +20,35 @@
 
 namespace axisgate::api {
 
-// What bounds a segment whatever the device: its rest and inputs, the turns of its curve, and the plane of a helix.
-// out_of_range, invalid_request.
+// Checks the limits that are the same for all devices: rest and inputs, the turns of a curve, and the plane of a helix.
+// Fails with out_of_range or invalid_request.
 Result<void> check_segment(const stage::Segment& segment);
 
 struct PathStep {
-  std::string_view device;  // its name in the configuration; valid as long as the gateway
+  std::string_view device;  // name in the configuration; valid as long as the gateway
   std::variant<CurrentMotion, stage::PathProgress> what;
 };
 
-// One path. start(), add() and run() are called one after the other; the rest is thread safe.
+// A Path receives and runs one path. start(), add() and run() are called one after the other; all else is thread safe.
 class Path final : public Subscription<PathStep> {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   Path(server::Gateway& gateway, const Pipeline& pipeline, Streams::Place place)
       : Subscription(std::move(place)), gateway_(gateway), pipeline_(pipeline), reader_(gateway, 0) {}
 
-  // The head of the path. False: it was refused, the stream ends with the problem, and nothing more is taken in.
+  // Handles the header of the path. Returns false if it was refused: the stream ends with the problem, and later
+  // messages are ignored.
   bool start(const Call& call, std::string_view device);
-  // The next segment, at most stage::PathRequest::kSegmentsMax. False: likewise.
+  // Adds the next segment; at most stage::PathRequest::kSegmentsMax. Returns false if it was refused, like start().
   bool add(Result<stage::Segment> segment);
-  // A part that is neither: the stream ends with `problem`. False, always.
+  // Ends the stream with `problem` because of a message that is neither. Always returns false.
   bool refuse_part(Problem problem) { return end(std::move(problem)); }
 
-  // All segments have come: the path runs. It counts from now on, as far as its call does not say until when. `digest`
-  // is of all that came: Call::digest.
+  // Runs the path after its last segment. Without a not_after in the call, its time counts from now. `digest` covers
+  // all messages: see Call::digest.
   void run(std::string digest);
-  // The caller has gone without a word: what has not been posted by then does not run, since it may be half a path.
+  // Handles a caller who disconnected without ending the stream. A path that is not posted yet does not run, because it
+  // may be incomplete.
   void break_off() override;
 
  private:
@@ -69,9 +71,9 @@ class Path final : public Subscription<PathStep> {
   server::Gateway& gateway_;
   const Pipeline& pipeline_;
 
-  // While the path comes in.
-  std::optional<Call> call_;            // nothing: no head yet
-  server::Stage* taken_for_ = nullptr;  // null: likewise
+  // Used while the path is received.
+  std::optional<Call> call_;            // nullopt: no header yet
+  server::Stage* taken_for_ = nullptr;  // null: no header yet
   stage::PathRequest path_;
 
   // Under mutex_.
@@ -80,17 +82,17 @@ class Path final : public Subscription<PathStep> {
   server::Stage* device_ = nullptr;  // null: not started
   stage::MotionId motion_ = 0;
   std::optional<PathStep> due_;
-  std::optional<StreamEnd> end_;  // after what is due
+  std::optional<StreamEnd> end_;  // delivered after due_
 };
 
 // Thread safe.
 class Paths {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Paths(server::Gateway& gateway, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
 
-  // queue_full.
+  // Fails with queue_full.
   Result<std::shared_ptr<Path>> open(const Credential& caller) const;
 
  private:

@@ -13,7 +13,7 @@ using server::SavedPosition;
 using stage::ExecuteEvent;
 using stage::StageController;
 
-// What writes waits for the disk: on the readers' thread, where no line waits for it.
+// Runs a task that waits for the disk on a reader's thread, so that no line waits for it.
 template <class Task>
 void away_from_the_lines(server::Gateway& gateway, Task task) {
   gateway.timeouts().after(Duration::zero(), std::move(task));
@@ -41,7 +41,7 @@ Result<void> read_back(Saving& saving, const ExecuteEvent& ended, const stage::S
 void refuse(const Saving& saving, const Problem& problem) {
   const bool line_failed = problem.reason == Reason::reply_timed_out || problem.reason == Reason::line_fault ||
                            problem.reason == Reason::link_down;
-  // The number that was its own may hold the new position by now.
+  // The number of the earlier position may have the new one by now.
   if (saving.before && (line_failed || !saving.answers.empty())) saving.positions.held_in(*saving.before, {});
   saving.answer(tl::unexpected(problem));
 }
@@ -64,7 +64,7 @@ struct RemovalRun {
 };
 using RemovalPtr = std::shared_ptr<RemovalRun>;
 
-// The name, where it still means that position.
+// Removes the name if it still belongs to that position.
 void forget(const RemovalPtr& run) {
   away_from_the_lines(run->removal.gateway, [run] {
     const SavedPosition& position = run->removal.position;
@@ -82,7 +82,8 @@ void remove(const RemovalPtr& run, StageController& controller, TimePoint now) {
   });
 }
 
-// Whether DEL is taken where nothing is, the manual does not say (127), 132)); so that is asked first.
+// Asks for the position before DEL, because the manual does not say whether DEL accepts an empty number (manual 127),
+// 132)).
 void remove_if_there(const RemovalPtr& run, StageController& controller, TimePoint now) {
   controller.execute({{run->lines.tell}, run->context}, now, [run](const ExecuteEvent& event) {
     if (event.kind != ExecuteEvent::Kind::ended) return;
@@ -94,7 +95,7 @@ void remove_if_there(const RemovalPtr& run, StageController& controller, TimePoi
 
 }  // namespace
 
-// Sent and read back with nobody else's lines between.
+// Saves and reads back in one transaction, so that no lines of other callers come between.
 void begin(Saving wanted, const Turn& turn) {
   const SavingPtr saving(new Saving(std::move(wanted)));
   const stage::PositionLines& lines = saving->lines;
@@ -109,7 +110,7 @@ void begin(Saving wanted, const Turn& turn) {
 
 void begin(Removal removal, const Turn& turn) {
   const auto lines = turn.device.kind().position_lines(slot_of(removal.position));
-  // The number may be another position's in the controller that is here now.
+  // In the present controller, the number may belong to another position.
   const bool here = lines && check_unit(removal.position, turn.controller.state());
   const RemovalPtr run(
       new RemovalRun{std::move(removal), turn.device, lines.value_or(stage::PositionLines{}), turn.context});

@@ -1,4 +1,4 @@
-// A position on its way to a name, and one on its way to none.
+// Saving a position under a name, and removing one.
 #pragma once
 
 #include <optional>
@@ -15,21 +15,21 @@
 
 namespace axisgate::api {
 
-// Kept by its callbacks until it has answered.
+// A Saving is kept by its callbacks until it has answered.
 struct Saving {
   server::Gateway& gateway;
   server::SavedPositions& positions;
   const stage::Kind& kind;
   stage::PositionLines lines;
   server::SavedPosition position;
-  server::SavedPositions::Number number;        // taken until all is over
-  std::optional<server::SavedPosition> before;  // what had the name
+  server::SavedPositions::Number number;        // reserved until the saving has ended
+  std::optional<server::SavedPosition> before;  // position that had the name before
   Answer<std::optional<NamedPosition>> answer{};
-  std::vector<std::string> answers{};  // to SET, GET and GET
+  std::vector<std::string> answers{};  // of the controller, to SET, GET and GET
 };
 void begin(Saving saving, const Turn& turn);
 
-// Likewise.
+// A Removal is kept by its callbacks until it has answered.
 struct Removal {
   server::Gateway& gateway;
   server::SavedPositions& positions;

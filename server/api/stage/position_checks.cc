@@ -10,7 +10,8 @@
 namespace axisgate::api {
 namespace {
 
-// The connection was interrupted since the controller was last known to hold it, so that it may have restarted.
+// Reports whether the connection was interrupted since the controller was last known to have the position, so that it
+// may have restarted.
 bool was_interrupted(const server::SavedPosition& position, const stage::State& state) {
   const bool line = state.link == stage::LinkState::up || state.link == stage::LinkState::doubtful;
   return !line || !position.frame || position.frame->device_epoch != state.device_epoch;
@@ -41,7 +42,7 @@ Result<std::map<int, std::int64_t>> reported_coordinates(const server::SavedPosi
                                                          const std::string& question,
                                                          const std::vector<std::string>& answers,
                                                          const stage::Kind& kind, const stage::State& state) {
-  // One flipped bit would make another place of it, which would be refused later.
+  // One flipped bit would change the place, and a later motion to it would be refused.
   if (answers.size() != 2 || answers[0] != answers[1]) {
     return fail(Reason::line_fault, fmt::format("the controller reported two things of {}", question), "save it again");
   }
@@ -54,10 +55,10 @@ Result<std::map<int, std::int64_t>> reported_coordinates(const server::SavedPosi
                                 .wire_reply = answers[0]});
 }
 
-// Manual 129): of a place it reports what its coordinates are by now. As long as the controller was connected without
-// interruption, it holds the place; where its coordinates were set again meanwhile, nothing is left to compare them
-// with. After an interruption, and in another run of the daemon, it is the same place only where it reports the same
-// coordinates: whether the frame is the same then, too, nobody knows. A set of coordinates stays as it is.
+// Manual 129): for a place, the controller reports its present coordinates. It keeps the place as long as the
+// connection is not interrupted; if coordinates were set again meanwhile, there is nothing to compare them with. After
+// an interruption, and in another run of the daemon, only equal coordinates show that it is the same place, although
+// the frame may have changed. A set of coordinates never changes.
 std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const stage::State& state) {
   const bool shifted =
       position.place && !was_interrupted(position, state) && *position.frame != server::frame_of(state);
@@ -65,7 +66,8 @@ std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, c
 }
 
 Problem refusal_of(Problem problem, const server::SavedPosition& position, const stage::State& state, TimePoint now) {
-  // What the controller reported is in no other refusal of that reason: those are of the caller's own epochs.
+  // Only refusals because of the controller's report have `sent`; the others with this reason are about the caller's
+  // own epochs.
   if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
   problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);
   if (was_interrupted(position, state)) {

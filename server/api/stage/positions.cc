@@ -22,10 +22,10 @@ Result<SavedPosition> find_position(const SavedPositions& positions, const std::
               "`axisctl positions` lists those that there are");
 }
 
-// What was read of the name; empty where that was refused.
+// Returns the position's own name; empty if the full name was refused.
 std::string own_name(const Result<PositionName>& name) { return name ? name->name : ""; }
 
-// Answers with the motion, or says what has become of the position.
+// Returns a callback that answers with the motion, or with refusal_of() the position.
 stage::StageController::OnStarted answering_of(const Turn& turn, SavedPositions& positions, SavedPosition position,
                                                bool compared, const Answer<StartedMotion>& answer) {
   return [answer, &device = turn.device, &controller = turn.controller, &positions, position = std::move(position),

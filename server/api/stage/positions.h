@@ -1,4 +1,4 @@
-// Places of a stage with names.
+// Named positions of a stage.
 #pragma once
 
 #include <optional>
@@ -16,30 +16,32 @@
 namespace axisgate::api {
 
 struct PositionWish {
-  bool place = true;           // else a set of coordinates
-  bool keep_existing = false;  // a name that is there is refused
+  bool place = true;           // false: a set of coordinates
+  bool keep_existing = false;  // refuse a name that exists already
 };
 
 struct NamedPosition {
   server::SavedPosition position;
-  bool emptied = false;  // the controller may hold it no more
+  bool emptied = false;  // the controller may have lost the position
 };
 
-// Thread safe. A position is named as callers name it: "devices/{d}/positions/{name}".
+// Thread safe. Callers name a position "devices/{d}/positions/{name}".
 class Positions {
  public:
-  // `gateway` and `pipeline` outlive this, and `positions` the gateway.
+  // `gateway` and `pipeline` must outlive this object; `positions` must outlive the gateway.
   Positions(server::Gateway& gateway, const Pipeline& pipeline, server::SavedPositions& positions)
       : gateway_(gateway), pipeline_(pipeline), positions_(positions) {}
 
-  // Where the stage is now. Nothing: it was to be checked only. queue_full, device_refused, link_down, internal.
+  // Saves the present position of the stage. Answers with nullopt after a check with validate_only. Fails with
+  // queue_full, device_refused, link_down or internal.
   void save(const Call& call, std::string_view name, const Result<PositionWish>& wish,
             Answer<std::optional<NamedPosition>> answer) const;
-  // Those of a device, by name.
+  // Returns the positions of a device, by name.
   void list(const Call& call, std::string_view device, Answer<std::vector<NamedPosition>> answer) const;
-  // The name, and what the controller holds under it. not_found, and as StageController::check_use() of all axes.
+  // Removes the name, and the position in the controller. Fails with not_found, and as StageController::check_use()
+  // does for all axes.
   void remove(const Call& call, std::string_view name, Answer<void> answer) const;
-  // not_found; epoch_passed where the controller may hold something else by now.
+  // Fails with not_found, and with epoch_passed if the controller may have another position by now.
   void move_to(const Call& call, std::string_view name, Answer<StartedMotion> answer) const;
 
  private:

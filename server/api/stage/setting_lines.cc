@@ -11,16 +11,16 @@ namespace {
 
 using stage::AxisSet;
 
-// What leaves the state otherwise than a later line of the same request could count on.
+// Reports whether a setting changes the state on which later lines of the same request would rely.
 bool must_be_alone(const stage::Setting& setting) {
   return std::holds_alternative<stage::SetDivisions>(setting) || std::holds_alternative<stage::SetMode>(setting) ||
          std::holds_alternative<stage::SetFormat>(setting);
 }
 
-// The lines so far, or what is wrong with one.
+// A Change collects lines, or the first problem.
 class Change {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   Change(const stage::Kind& kind, const stage::State& state) : kind_(kind), state_(state) {}
 
   void add(const stage::Setting& setting) {
@@ -49,7 +49,7 @@ class Change {
   const stage::Kind& kind_;
   const stage::State& state_;
   Lines lines_;
-  bool alone_ = false;  // a line of theirs must have no other beside it
+  bool alone_ = false;  // a line must be the only one of its request
   std::optional<Problem> problem_;
 };
 
@@ -67,7 +67,7 @@ void add_speeds(int axis, const Speeds& speeds, const stage::AxisState& present,
   change.add(set);
 }
 
-// They are set together: what is not given is sent as it is.
+// Sets all three values together: those that are not given are sent with their present values.
 void add_origin_speeds(int axis, const Speeds& speeds, const stage::AxisState& present, Change& change) {
   stage::AxisState origin = present;
   origin.minimum_speed.reset();
@@ -88,7 +88,7 @@ void add_origin_speeds(int axis, const Speeds& speeds, const stage::AxisState& p
   change.add(stage::SetOriginSpeeds{axis, {*minimum, *maximum, all->acceleration_ms}});
 }
 
-// Which it is, and that amounts can be converted there.
+// Returns the axis if it exists, is controllable, and amounts can be converted for it.
 Result<int> usable_axis(int number, const stage::State& state) {
   const auto axis = checked_axis(number);
   if (!axis) return axis;
@@ -131,10 +131,10 @@ void add_controller(const SettingsChange& wanted, Change& change) {
   }
 }
 
-// One axis's coordinate among those before it.
+// Coordinates collects the new coordinates, axis by axis.
 struct Coordinates {
   AxisSet axes{};
-  std::optional<std::size_t> way{};  // which alternative all of them have
+  std::optional<std::size_t> way{};  // alternative of NewCoordinate::coordinate that all axes have
   std::map<int, std::int64_t> positions{};
 
   Result<void> add(const NewCoordinate& one, const stage::State& state) {
