@@ -43,7 +43,7 @@ namespace axisgate {
 namespace {
 
 constexpr int kExitFailed = 1;
-constexpr int kExitUsage = 2;  // of the command line or the configuration
+constexpr int kExitUsage = 2;  // the command line or the configuration is wrong
 
 struct Arguments {
   std::string config;
@@ -90,7 +90,7 @@ Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& 
   return std::make_unique<server::Access>(config, server::caller_name(::geteuid()), *std::move(tokens));
 }
 
-// Nothing where no service manager waits for a sign of life.
+// Returns null if no service manager waits for signs of life.
 std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& server) {
   const std::optional<Duration> time = server::watchdog_time();
   if (!time) return nullptr;
@@ -101,7 +101,8 @@ std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& s
            stage->post([answer = std::move(answer)](stage::StageController&, TimePoint) { answer(); });
          }});
   }
-  // The tasks run on the readers' thread, which needs no question of its own. Often enough that one ping may be late.
+  // The watchdog itself runs on the readers' thread, so this thread needs no question. Four pings per interval allow
+  // for a late one.
   constexpr int kPings = 4;
   return std::make_unique<server::Watchdog>(
       std::move(threads), *time / kPings,
@@ -127,7 +128,7 @@ server::spool::Bounds bounds_of(const server::JobsConfig& jobs) {
           .kept = std::chrono::days(jobs.days)};
 }
 
-// Never null: without the file, the daemon refuses or does what moves as it would on a disk that refuses.
+// Never returns null: if the file cannot be opened, the daemon refuses or allows motions as on a disk that refuses.
 std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state,
                                                        const server::JournalConfig& config) {
   const server::journal::StoreBounds bounds{std::chrono::hours(24 * config.days), std::int64_t{config.megabytes} << 20};
@@ -151,7 +152,7 @@ void log_what_is_served(const server::Gateway& gateway, const rpc::Server& serve
   server::log::flush();
 }
 
-// What is open before the gateway, and outlives it.
+// Objects that are opened before the gateway and outlive it.
 struct Kept {
   std::unique_ptr<server::Access> access;
   std::unique_ptr<server::SavedPositions> positions;
@@ -159,7 +160,7 @@ struct Kept {
   std::unique_ptr<server::journal::Journal> journal;  // null with `kept = false`
 };
 
-// Until a signal.
+// Serves until a signal ends the daemon.
 int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_signals) {
   const server::Config& config = gateway.config();
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
@@ -186,7 +187,7 @@ int serve(const server::Config& config) {
   using server::journal::EntryKind;
   server::EndSignals end_signals;
   server::log::start();
-  // Held until all that writes there has ended.
+  // The directory is locked until all its writers have ended.
   const auto state = server::StateDirectory::hold(server::default_state_directory());
   if (!state) return complain(kExitFailed, server::explain(state.error()));
   auto access = open_access(config.access, *state);
@@ -206,7 +207,7 @@ int serve(const server::Config& config) {
     if (journal != nullptr) journal->append({entry_of_daemon(EntryKind::daemon_started)});
     exit_code = serve(gateway, kept, end_signals);
   }
-  // Nothing is published any more: where this entry is on the disk, all events are.
+  // No event is published after this, so if this entry is on the disk, all events are.
   if (journal != nullptr) journal->append({entry_of_daemon(EntryKind::daemon_ended)});
   return exit_code;
 }

@@ -16,7 +16,7 @@
 namespace axisgate::server {
 namespace {
 
-// For streams and threads, after the devices.
+// Time for streams and threads to end, after the devices.
 constexpr Duration kRestOfTheEnd = std::chrono::seconds(5);
 
 // Signals that would kill the process although it has no fault. ending_signals() adds the real-time signals.
@@ -27,16 +27,16 @@ constexpr int kEnding[] = {SIGINT,  SIGTERM,   SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR
 // suspended (SIGTTIN, SIGTTOU).
 constexpr int kIgnored[] = {SIGPIPE, SIGXFSZ, SIGTTIN, SIGTTOU};
 
-// These come more than once although nobody asks twice. When a terminal is closed, its shell sends SIGHUP to its jobs,
-// and the kernel sends another when the shell has ended. SIGXCPU comes again with each further second of processor
-// time.
+// Signals that may come more than once although nobody sends them twice. When a terminal is closed, its shell sends
+// SIGHUP to its jobs, and the kernel sends another when the shell has ended. SIGXCPU comes again with each further
+// second of processor time.
 constexpr int kRepeated[] = {SIGHUP, SIGXCPU};
 
 bool is_repeated(int signal) {
   return std::find(std::begin(kRepeated), std::end(kRepeated), signal) != std::end(kRepeated);
 }
 
-// Reports whether nohup(1), or whatever else started the daemon, has made it ignore the signal.
+// Reports whether nohup(1), or another program that started the daemon, has made it ignore the signal.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;

@@ -6,20 +6,20 @@
 
 namespace axisgate::server {
 
-// What each signal does to the daemon; server/README.md has the table. Created by the main thread before it starts any
-// other thread, so that none of those receives a signal. Destroyed after the gateway.
+// Effects of signals on the daemon; server/README.md has the table. The main thread must create the object before it
+// starts any other thread, so that no other thread receives a signal. Destroy it after the gateway.
 class EndSignals {
  public:
   EndSignals();
   EndSignals(const EndSignals&) = delete;
   EndSignals& operator=(const EndSignals&) = delete;
 
-  // Returns when a signal has come and the gateway is wound down, or somebody asks a second time, or it takes too long.
-  // After that, a signal that asks for the end kills the process.
+  // Returns when a signal has come and the gateway is wound down, or a second request to end has come, or winding down
+  // takes too long. After that, a signal that requests the end kills the process.
   void wait(Gateway& gateway);
 
  private:
-  // How far the end is; only advance() changes it.
+  // Progress of the end; only advance() changes it.
   enum class Step {
     serving,
     ending,  // after SIGHUP or SIGXCPU, which nobody sent to hurry

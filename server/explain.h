@@ -7,7 +7,7 @@
 
 namespace axisgate::server {
 
-// What happened, then what to do, as one sentence or, where the hint begins with a capital, as two.
+// Returns the message and the hint as one sentence, or as two if the hint begins with a capital.
 inline std::string explain(const Problem& problem) {
   if (problem.hint.empty()) return problem.message;
   const bool sentence = problem.hint.front() >= 'A' && problem.hint.front() <= 'Z';

@@ -10,10 +10,10 @@
 
 namespace axisgate::server {
 
-// All that the configuration may keep for administrators: the commands of each kind of device, and taking axes over.
+// Returns the values that `admin_commands` may have: the commands of each kind of device, and "take-over".
 std::vector<AdminCommand> admin_commands(DeviceKinds kinds);
 
-// `access` comes with the defaults.
+// `access` initially contains the defaults.
 void read_access(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
                  AccessConfig& access);
 

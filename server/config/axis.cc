@@ -29,7 +29,7 @@ void read_limits(ConfigTable& table, Unit shown, AxisLimits& limits) {
   limits.require_homing = table.flag("require_homing").value_or(false);
 }
 
-// What is wider than everybody's changes nothing, which nobody would notice.
+// Reports limits beyond the axis's own, since they would have no effect.
 void check_override(ConfigTable& table, const AxisLimits& own, const AxisLimits& theirs) {
   const auto refuse_beyond = [&table](std::string_view key, std::optional<bool> beyond) {
     if (beyond == true) {
@@ -77,7 +77,7 @@ AxisProfile read_axis(ConfigTable& table, std::string_view file, std::vector<Con
   if (stage) {
     axis.unit = unit_on(table, *stage);
   } else {
-    // The axis's own amounts are not to blame where its profile cannot be read.
+    // If the stage profile cannot be read, the axis's own amounts are not wrong.
     axis.unit = read_unit(table, "unit").value_or(table.has("stage") ? Unit::pulses : axis.unit);
   }
   read_limits(table, axis.unit, axis);

@@ -11,7 +11,7 @@
 
 namespace axisgate::server {
 
-// Those of the table `device`. An axis without one stays as it is.
+// Reads the axes of the table `device`. An axis without a table stays unchanged.
 void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
                std::array<stage::AxisProfile, stage::kAxisCount>& axes);
 

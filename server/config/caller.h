@@ -1,4 +1,4 @@
-// Callers by name in the configuration.
+// Names of callers in the configuration.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace axisgate::server {
 
-// Why `who` cannot mean a caller; empty where it can. Only the very name that the daemon knows a caller by will do: any
-// other would mean nobody. `unknown` is the answer for what begins with no way of calling. What is wrong follows on the
-// name: "is not a login".
+// Returns the reason why `who` cannot be a caller, as text to follow the name: "is not a login". Empty if it can. Only
+// the exact name by which the daemon identifies a caller is accepted; any other would match nobody. Returns `unknown`
+// if the name does not begin with a known identification such as "unix".
 std::string wrong_with_caller(std::string_view who, std::string_view unknown);
 
 }  // namespace axisgate::server

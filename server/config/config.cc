@@ -59,7 +59,7 @@ class ConfigReader {
 
  private:
   std::string checked_socket(ConfigTable& table, const std::string& path) {
-    // sockaddr_un holds 108 bytes with the final zero.
+    // sockaddr_un has 108 bytes, including the final zero.
     if (path.empty() || path.front() != '/' || path.size() > 107) {
       table.error("socket", fmt::format("\"{}\" will not do; use an absolute path of at most 107 bytes", path));
     }
@@ -78,7 +78,7 @@ class ConfigReader {
       device.family = std::move(mill);
     }
     device.record = read_record(table);
-    constexpr int kLeast = 32;  // each of two files begins with the 4 MiB that are kept in memory
+    constexpr int kLeast = 32;  // each of the two files begins with the 4 MiB that are kept in memory
     if (const auto given = table.integer("record_megabytes", kLeast, 1'000'000)) {
       device.record_megabytes = static_cast<int>(*given);
     }
@@ -86,8 +86,8 @@ class ConfigReader {
     return device;
   }
 
-  // Null: a mill. Of a kind that there is not, the first stands in, so that the rest of the table is looked at all the
-  // same.
+  // Returns the kind of a stage, or null for a mill. The first kind replaces an unknown one, so that the rest of the
+  // table is checked as well.
   const stage::Kind* read_kind(ConfigTable& table) {
     std::vector<std::pair<std::string_view, const stage::Kind*>> known;
     for (const stage::Kind* kind : kinds_.stages) known.emplace_back(kind->name(), kind);
@@ -95,7 +95,7 @@ class ConfigReader {
     return table.choice<const stage::Kind*>("kind", known).value_or(kinds_.stages.front());
   }
 
-  // `device` gets its connection.
+  // Also sets `device`'s connection.
   StageConfig read_stage_config(ConfigTable& table, const stage::Kind& kind, DeviceConfig& device) {
     StageConfig stage{.kind = &kind, .profile = {}, .kind_settings = {}};
     const auto check = [&kind](std::string_view name, std::string_view value) {
@@ -207,7 +207,8 @@ Configured<Config> parse_config(std::string_view text, const std::string& file, 
     errors.push_back({file, error.source().begin.line, "", fmt::format("is not TOML: {}", error.description())});
   }
   if (errors.empty()) return config;
-  // Those of the profiles that it names come last, each once whatever names it.
+  // Errors in the profiles that the file names come last. A profile's error is listed once, even if several tables name
+  // the profile.
   const auto place = [&file](const ConfigError& error) {
     return std::tuple(error.file != file, std::string_view(error.file), error.line);
   };

@@ -1,4 +1,4 @@
-// The daemon's configuration: a TOML file, checked whole before anything is opened.
+// The daemon's configuration: a TOML file, checked completely before anything is opened.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace axisgate::server {
 
-// HOST:PORT to listen on. Port 0 takes any free one; the log says which.
+// HOST:PORT to listen on. Port 0 takes any free port, which is then in the log.
 struct TcpAddress {
   std::string host;
   std::uint16_t port = 0;
@@ -36,33 +36,33 @@ struct TcpAddress {
 };
 std::string to_string(const TcpAddress& address);  // "127.0.0.1:50203", "[::1]:50203"
 
-// The built-in simulator. With a baud rate its bytes take the time that a real line takes.
+// The built-in simulator. With a baud rate, bytes take as long as on a real line.
 struct SimulatedConnection {
-  double speed = 1;    // its time runs so many times as fast
-  bool paced = false;  // a baud rate was given: bytes take their time
+  double speed = 1;    // factor by which its time runs faster
+  bool paced = false;  // a baud rate was given, so bytes take time
   stage::Words options;
 };
 
 // The kinds that a configuration may name; they live as long as the program.
 struct DeviceKinds {
-  std::span<const stage::Kind* const> stages;  // the first is that of a device whose table names none
-  std::string_view mill = {};                  // the name of mills that read RML-1; empty: there are none
+  std::span<const stage::Kind* const> stages;  // the first is the default kind
+  std::string_view mill = {};                  // kind name of mills that read RML-1; empty: no mills
 };
 
 struct StageConfig {
   const stage::Kind* kind = nullptr;  // one of DeviceKinds::stages
-  stage::Profile profile;             // of its name and baud those of the DeviceConfig count
+  stage::Profile profile;             // its name and baud are unused; those of DeviceConfig count
   stage::Words kind_settings;         // a word for each of kind->settings()
 };
 
-// A place of the work origin.
+// Named place of the work origin.
 struct NamedOrigin {
   std::string name;
   std::int64_t x = 0, y = 0;        // the mill's steps from its home corner, within its work area
-  std::optional<std::int64_t> z{};  // of Z0: a machine coordinate, in steps; none: as it is set at the mill
+  std::optional<std::int64_t> z{};  // Z0 as a machine coordinate, in steps; nullopt: as set at the mill
 };
 
-// As an entry of MillConfig::station: every user of the Unix socket.
+// Entry of MillConfig::station for every user of the Unix socket.
 inline constexpr std::string_view kAnybodyOnUnix = "unix";
 
 // A mill that reads RML-1 (device/rml1).
@@ -70,62 +70,62 @@ struct MillConfig {
   enum class AtExit { abort, finish };
 
   std::string_view kind;     // DeviceKinds::mill
-  std::string profile_name;  // as the configuration has it: "mdx-20", or the absolute path of a file
+  std::string profile_name;  // as in the configuration: "mdx-20", or the absolute path of a file
   rml1::Profile profile;
-  std::string profile_text;                                       // the content of its file
-  std::vector<rml1::KnownMachine> others;                         // what a job may have been made for instead
+  std::string profile_text;                                       // the content of the profile's file
+  std::vector<rml1::KnownMachine> others;                         // other machines for which a job may have been made
   rml1::SendSettings sending;                                     // with the device's baud
-  std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // who may confirm at the mill, as in Caller::who
-  std::chrono::minutes confirmation{10};                          // how long a confirmation is valid
+  std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // callers who may confirm at the mill (Caller::who)
+  std::chrono::minutes confirmation{10};                          // period for which a confirmation is valid
   std::vector<std::string> tools{"T1"};                           // at least one
   std::vector<NamedOrigin> origins;
-  std::chrono::seconds busy_limit{600};        // after so long without a byte taken it is reported as still busy
-  rml1::AtLoss at_loss = rml1::AtLoss::abort;  // what is sent when the line is back, where a job ran when it broke
-  std::vector<std::string> doubts;  // what may be wrong without being an error, for people who check the configuration
-  bool holds_host_back = false;     // the line, while the mill's buffer is full: "full" streaming loses nothing
-  AtExit at_exit = AtExit::abort;   // what happens to a running job when the daemon ends
-  double slower_percent = 0;        // of a simulated mill: each motion takes so much longer than by the profile
+  std::chrono::seconds busy_limit{600};  // time without a byte taken after which the mill is reported as still busy
+  rml1::AtLoss at_loss = rml1::AtLoss::abort;  // action when the line is back after a loss during a job
+  std::vector<std::string> doubts;  // possible mistakes that are no errors, for people who check the configuration
+  bool holds_host_back = false;     // the line stops the host when the mill's buffer is full, so "full" loses nothing
+  AtExit at_exit = AtExit::abort;   // action on a running job when the daemon ends
+  double slower_percent = 0;        // of a simulated mill: additional time of each motion, in percent of the profile's
 };
 
 struct DeviceConfig {
   std::string name;
   int baud = stage::Profile{}.baud;
   std::variant<SimulatedConnection, SerialSettings, TcpSettings, PrinterSettings> connection;
-  std::string record;           // the file that the daemon records the line to; empty: none
-  int record_megabytes = 1024;  // of that file and the one before it, together
+  std::string record;           // file to which the daemon records the line; empty: none
+  int record_megabytes = 1024;  // of that file and the previous one together
   std::variant<StageConfig, MillConfig> family;
 };
 
-// Where other machines call: TLS 1.3, and every caller has a token or a certificate. The files are PEM. They are read
+// Endpoint for other machines: TLS 1.3, and every caller has a token or a certificate. The files are PEM, and are read
 // again when they change.
 struct NetworkConfig {
   TcpAddress listen;
-  std::string certificate;  // of the daemon, with the chain up to, not with, the authority that callers know
+  std::string certificate;  // of the daemon, with its chain, but without the authority that callers know
   std::string key;          // of that certificate
   std::string client_ca;    // authorities whose certificates name callers; empty: tokens only
 };
 
-// What has happened, and what requests have become (journal/).
+// The journal of events and of the results of requests (journal/).
 struct JournalConfig {
   bool kept = true;                  // false: request ids are remembered in memory only
-  bool act_without = false;          // what moves and changes is done also where the disk refuses the journal
-  int days = 366, megabytes = 1024;  // of the history; what is older is dropped
-  int remember_hours = 24;           // request ids; less long, where there are more than:
+  bool act_without = false;          // true: motions and changes are allowed even if the disk refuses the journal
+  int days = 366, megabytes = 1024;  // of the history; older entries are removed
+  int remember_hours = 24;           // for request ids; a shorter time if there are more than remember_requests
   int remember_requests = 20'000;
-  Role others_seen_by = Role::observer;  // who has a lower role reads only their own entries
+  Role others_seen_by = Role::observer;  // a caller with a lower role reads only their own entries
 };
 
 // Uploaded jobs of mills (spool/).
 struct JobsConfig {
   int megabytes = 256;      // of all jobs
-  int megabytes_each = 64;  // of one
+  int megabytes_each = 64;  // of one job
   int megabytes_per_person = 128;
-  int count = 200;            // the places of the queue, with those of jobs that have ended
-  int count_per_person = 50;  // a quarter of them or less
-  int days = 30;              // that a job is kept after its end
-  int confirm_days = 14;      // a job that nobody confirms by then ends EXPIRED
+  int count = 200;            // places of the queue, including jobs that have ended
+  int count_per_person = 50;  // at most a quarter of count
+  int days = 30;              // time for which a job is kept after its end
+  int confirm_days = 14;      // time after which an unconfirmed job ends EXPIRED
 
-  // The most for one caller, and what is left at the end for those who have no job in the queue.
+  // Limit for one caller, and number of places reserved for callers who have no job in the queue.
   int quarter() const { return std::max(1, count / 4); }
 };
 
@@ -141,13 +141,13 @@ struct Config {
   std::vector<DeviceConfig> devices;
 };
 
-// What the daemon runs without a file: one simulated stage of the first kind, named `stage`.
+// Returns the configuration that is used without a file: one simulated stage of the first kind, named `stage`.
 Config default_config(DeviceKinds kinds);
 
-// Every error in the file is reported, in the order of the lines; a syntax error ends the reading.
+// Reports every error in the file, in the order of the lines. A syntax error ends the reading.
 Configured<Config> load_config(const std::string& path, DeviceKinds kinds);
 
-// The same of a text already read; `file` names it in errors.
+// Parses a text that has already been read; `file` is its name in errors.
 Configured<Config> parse_config(std::string_view text, const std::string& file, DeviceKinds kinds);
 
 }  // namespace axisgate::server

@@ -18,10 +18,10 @@ constexpr std::array<std::pair<std::string_view, ConnectionKind>, 4> kConnection
      {"simulated", ConnectionKind::simulated},
      {"printer", ConnectionKind::printer}}};
 
-// USB has no rate: what is written arrives at once, for a mill that takes hundredths of a second for a command.
+// USB has no rate: bytes arrive at once at a mill that takes hundredths of a second for a command.
 constexpr int kPrinterBaud = 1'000'000;
 
-// Names are for the name server to judge; a port or a blank in one is a slip.
+// Only the name server can check a name, but a port or a blank in a name is a mistake.
 bool is_host(std::string_view host) {
   in6_addr address{};
   const bool version_6 = ::inet_pton(AF_INET6, std::string(host).c_str(), &address) == 1;
@@ -43,7 +43,7 @@ std::optional<ConnectionKind> ConnectionReader::read(ConfigTable& table, int usu
   const std::optional<std::int64_t> baud = table.integer("baud", 300, 4'000'000);
   device.baud = static_cast<int>(baud.value_or(usual_baud));
   if (!kind) {
-    // Without the connection it is not known which of these keys belong here: none is called unknown.
+    // Without a known connection, all of these keys may be right, so none is reported as unknown.
     for (const char* key : {"path", "parity", "stop_bits", "flow_control", "host", "port", "speed", "options"}) {
       table.allow(key);
     }

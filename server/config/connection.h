@@ -1,4 +1,4 @@
-// How a device is reached: the keys of its table that every family has for that.
+// The keys with which the table of a device, of any family, describes its connection.
 #pragma once
 
 #include <functional>
@@ -15,17 +15,17 @@ namespace axisgate::server {
 
 enum class ConnectionKind { serial, tcp, simulated, printer };
 
-// Of all devices of a file, since no two share a line.
+// One ConnectionReader reads all devices of a file, since no two may share a line.
 class ConnectionReader {
  public:
-  // An option of the simulator; what is wrong with it names what may be chosen.
+  // Checks an option of the simulator; the error names the allowed values.
   using CheckOption = std::function<Result<void>(std::string_view name, std::string_view value)>;
 
-  // What is referred to outlives this.
+  // The referenced objects must outlive this one.
   ConnectionReader(std::string_view file, std::vector<ConfigError>& errors) : file_(file), errors_(errors) {}
 
-  // Sets the device's connection, and its baud, which is `usual_baud` without the key, or that of USB for a printer.
-  // Nothing where it is not known how the device is connected, which is an error then.
+  // Sets the device's connection and baud. Without the key, the baud is `usual_baud`, or that of USB for a printer.
+  // Reports an error and returns nullopt if the kind of connection is missing or wrong.
   std::optional<ConnectionKind> read(ConfigTable& table, int usual_baud, const CheckOption& check_option,
                                      DeviceConfig& device);
 

@@ -1,4 +1,4 @@
-// Where the daemon listens, and clients look for it, when nobody says otherwise.
+// Default addresses at which the daemon listens and clients connect.
 #pragma once
 
 #include <unistd.h>
@@ -11,19 +11,20 @@
 
 namespace axisgate {
 
-// `listen` without a configuration, and `listen` of [network] in every example: that one has no default.
+// Default of `listen`, and port of [network] in every example; [network] has no default.
 inline constexpr std::uint16_t kGrpcPort = 50203, kNetworkPort = 50204;
 
 inline constexpr const char* kSystemSocket = "/run/axisgate/axisgate.sock";
 
-// The environment's value, or empty; set but empty counts as not set.
+// Returns the value of an environment variable. Empty if it is not set.
 inline std::string environment(const char* variable) {
   const char* value = std::getenv(variable);
   return value == nullptr ? std::string() : std::string(value);
 }
 
-// For the daemon: $AXISGATE_SOCKET; as root the system's socket; $XDG_RUNTIME_DIR/axisgate.sock; last a directory of
-// the user's own under /tmp, which the daemon makes with mode 0700 and refuses when it belongs to somebody else.
+// Returns the socket for the daemon: $AXISGATE_SOCKET; for root, the system's socket; $XDG_RUNTIME_DIR/axisgate.sock;
+// otherwise a socket in the user's directory under /tmp, which the daemon makes with mode 0700 and refuses if it
+// belongs to another user.
 inline std::string default_socket_to_listen() {
   if (std::string chosen = environment("AXISGATE_SOCKET"); !chosen.empty()) return chosen;
   if (::geteuid() == 0) return kSystemSocket;
@@ -31,7 +32,8 @@ inline std::string default_socket_to_listen() {
   return "/tmp/axisgate-" + std::to_string(::geteuid()) + "/axisgate.sock";
 }
 
-// For clients: $AXISGATE_SOCKET; the system's socket where there is one; else where one's own daemon would listen.
+// Returns the socket for clients: $AXISGATE_SOCKET; the system's socket if it exists; otherwise the default socket of
+// the user's own daemon.
 inline std::string default_socket_to_connect() {
   if (std::string chosen = environment("AXISGATE_SOCKET"); !chosen.empty()) return chosen;
   std::error_code ignored;

@@ -7,7 +7,7 @@
 namespace axisgate::server {
 namespace {
 
-// A segment (journal::Store::kSegment) takes some megabytes.
+// A segment (journal::Store::kSegment) takes several megabytes.
 constexpr int kDaysMax = 36'600, kMegabytesMin = 16, kMegabytesMax = 1'000'000;
 constexpr int kHoursMax = 24 * 366, kRequestsMax = 1'000'000;
 
@@ -28,7 +28,7 @@ void read_journal(const toml::table& source, std::string_view file, std::vector<
   if (const auto requests = table.integer("remember_requests", 1, kRequestsMax)) {
     journal.remember_requests = static_cast<int>(*requests);
   }
-  const auto roles = std::span(kRoles).subspan(1);  // nobody reads anything
+  const auto roles = std::span(kRoles).subspan(1);  // "nobody" may read nothing
   journal.others_seen_by = table.choice<Role>("others_seen_by", roles).value_or(journal.others_seen_by);
   table.refuse_unknown();
 }

@@ -15,7 +15,7 @@ void read_identity_limits(const toml::table& source, std::string_view file, std:
   read_count(table, "connections", 1, 4096, limits.connections);
   read_count(table, "streams", 1, 4096, limits.streams);
   read_count(table, "calls", 1, 65'536, limits.calls);
-  // A path's segment or a line is far below the lower bound, whatever its numbers.
+  // Any segment of a path and any command line is far shorter than the lower bound.
   read_count(table, "message_bytes", 4096, 64 << 20, limits.message_bytes);
   table.refuse_unknown();
 }

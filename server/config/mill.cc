@@ -29,7 +29,7 @@ constexpr std::string_view kSlackRule = "a number from 1 to 10, or \"measured\""
 // A number of steps has at most 24 bits (guideline 2-3).
 constexpr std::int64_t kStepsMax = 8'388'607;
 
-// Empty where there is none, which is an error then.
+// Returns the path of the profile's file. Reports an error and returns an empty string if there is none.
 std::string profile_path(ConfigTable& table, const std::string& name) {
   if (name.starts_with('/')) return name;
   if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
@@ -73,8 +73,8 @@ void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
   if (!sending.slack_as_measured) table.error("slack", fmt::format("\"{}\" is not known; use {}", word, kSlackRule));
 }
 
-// A paced job takes longer than the mill needs, and loses no bytes. So it is the default where the configuration does
-// not say that the line holds the host back, and where DSR does: the command under way is sent all the same.
+// Paced streaming takes longer than the mill needs, but loses no bytes. It is the default unless the configuration
+// states that the line stops the host. DSR is not enough: the present command is still sent to its end.
 rml1::Streaming usual_streaming(const ConfigTable& table, const DeviceConfig& device) {
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   const bool said = table.has("flow_control") && serial != nullptr &&
@@ -145,7 +145,7 @@ std::int64_t read_steps(ConfigTable& table, std::string_view key, std::int64_t m
   return steps.value_or(0);
 }
 
-// Machine coordinates.
+// Returns the travel of Z in machine coordinates.
 std::pair<std::int64_t, std::int64_t> travel_of_z(const rml1::Profile& profile) {
   const double bottom = profile.top - profile.up * std::round(profile.steps(profile.z_mm));
   return {std::llround(std::min(profile.top, bottom)), std::llround(std::max(profile.top, bottom))};
@@ -153,7 +153,7 @@ std::pair<std::int64_t, std::int64_t> travel_of_z(const rml1::Profile& profile) 
 
 std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<rml1::Profile>& profile,
                                       std::string_view file, std::vector<ConfigError>& errors) {
-  // A quotient such as 203.2 / 0.025 is not always the whole number that it stands for.
+  // The result of a division such as 203.2 / 0.025 may be slightly less than the whole number.
   constexpr double kRounding = 1e-6;
   const auto whole_steps = [&profile](double mm) {
     return static_cast<std::int64_t>(std::floor(profile->steps(mm) + kRounding));
@@ -173,7 +173,8 @@ std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<r
   return origins;
 }
 
-// Paced, what is sent ahead fits the buffer by computation. In full, only the line can hold the host back.
+// Paced streaming sends no more than fits the buffer by computation. With full streaming, only the line can stop the
+// host.
 bool holds_host_back(const DeviceConfig& device) {
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   if (serial != nullptr) return serial->flow != FlowControl::none;
@@ -192,14 +193,14 @@ void refuse_full(ConfigTable& table, const DeviceConfig& device) {
                                       "\"paced\", or flow_control = \"rtscts\""));
 }
 
-// Of a serial server's line nothing is seen, and the built-in simulator holds nothing back.
+// The daemon does not see the line of a serial server, and the built-in simulator never stops the host.
 bool has_flow_control(const DeviceConfig& device) {
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   if (serial != nullptr) return serial->flow != FlowControl::none;
   return std::holds_alternative<PrinterSettings>(device.connection);
 }
 
-// A wrong baud rate or flow control shows as a spoilt workpiece only: a mill never answers.
+// Warns about baud rate and flow control, since a mill never answers: a mistake would only show in a spoilt workpiece.
 std::vector<std::string> doubts_about(const ConfigTable& table, const DeviceConfig& device, const MillConfig& mill) {
   std::vector<std::string> doubts;
   const auto* serial = std::get_if<SerialSettings>(&device.connection);

@@ -1,4 +1,4 @@
-// The table of a mill, beyond what every device has.
+// The keys in the table of a mill that other devices do not have.
 #pragma once
 
 #include <string_view>
@@ -10,8 +10,8 @@
 
 namespace axisgate::server {
 
-// Without its kind. `device` gets its connection; without the key, its baud is that of the mill's profile. Errors in
-// the profile have the profile's own file and line.
+// Reads all keys except the kind, and sets `device`'s connection. Without the key, the baud is that of the mill's
+// profile. Errors in the profile name the profile's own file and line.
 MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
                      ConnectionReader& connections, DeviceConfig& device);
 

@@ -1,4 +1,4 @@
-// What devices and axes may be called in the configuration. Tokens are named by the same rule.
+// Rule for the names of devices and axes in the configuration, and of tokens.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace axisgate::server {
 inline constexpr std::string_view kNameRule =
     "a letter, then letters, digits, '-' or '_', at most 32 in all: names stand in resource names and metrics";
 
-// ASCII by hand: what a name may hold must not depend on the locale.
+// Independent of the locale, unlike std::isalpha.
 inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 inline bool is_name(std::string_view name) {
   return !name.empty() && name.size() <= 32 && is_letter(name.front()) &&

@@ -15,7 +15,7 @@ namespace {
 
 bool is_loopback(std::string_view host) { return host == "::1" || host == "127.0.0.1"; }
 
-// Addresses only: a listener takes no names.
+// Accepts addresses only, since a listener takes no names.
 bool is_address(const std::string& host) {
   in6_addr bytes{};
   return ::inet_pton(AF_INET, host.c_str(), &bytes) == 1 || ::inet_pton(AF_INET6, host.c_str(), &bytes) == 1;
@@ -49,7 +49,7 @@ void read_listen(ConfigTable& table, TcpAddress& address) {
   }
 }
 
-// The path of a file that `check` finds nothing wrong with.
+// Returns the path of a file that `check` accepts. Otherwise reports an error and returns an empty string.
 template <class Check>
 std::string read_file(ConfigTable& table, std::string_view key, Check check) {
   const std::optional<std::string> path = table.text(key);

@@ -10,10 +10,11 @@
 
 namespace axisgate::server {
 
-// A loopback address; any other is refused, with how to serve other machines. `what` is offered there: "gRPC".
+// Reads a loopback address. The error about any other address says how to serve other machines. `what` is the service
+// at this address, such as "gRPC".
 void read_loopback(ConfigTable& table, std::string_view key, std::string_view what, TcpAddress& address);
 
-// Nothing without that table. The files that it names are read and checked, too.
+// Reads the table and checks the files that it names. nullopt without the table.
 std::optional<NetworkConfig> read_network(ConfigTable& root, std::string_view file, std::vector<ConfigError>& errors);
 
 }  // namespace axisgate::server

@@ -10,7 +10,7 @@
 namespace axisgate::server {
 namespace {
 
-// A long double holds the 18 digits of a Decimal.
+// A long double has room for the 18 digits of a Decimal.
 long double in_smallest_unit(const Quantity& quantity) {
   const int power = quantity.unit == Unit::millimeters ? 6 : quantity.unit == Unit::micrometers ? 3 : 0;
   return static_cast<long double>(quantity.value.digits) * std::pow(10.0L, power - quantity.value.decimals);
@@ -28,7 +28,7 @@ std::optional<Quantity> read_quantity(ConfigTable& table, std::string_view key, 
     table.error(key, explain(parsed.error()));
     return std::nullopt;
   }
-  // Pulses go with either kind of axis.
+  // Pulses are allowed for both kinds of axis.
   const bool either = parsed->unit == Unit::pulses || shown == Unit::pulses;
   if (!either && is_length(parsed->unit) != is_length(shown)) {
     table.error(key, fmt::format("is in {}, but the axis is shown in {}; an axis turns or slides, not both",

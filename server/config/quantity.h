@@ -13,17 +13,17 @@ namespace axisgate::server {
 
 using ParseQuantity = Result<Quantity> (*)(std::string_view, Unit);
 
-// Nothing where the key is absent or wrong, which is an error then. `shown` is the axis's unit, and that of an amount
-// without one; lengths and degrees do not go together.
+// nullopt if the key is absent or, with an error, wrong. `shown` is the axis's unit, and the unit of an amount without
+// one; lengths and degrees must not be mixed.
 std::optional<Quantity> read_quantity(ConfigTable& table, std::string_view key, Unit shown, ParseQuantity parse);
 
-// The keys travel_minimum, travel_maximum and maximum_speed.
+// Reads the keys travel_minimum, travel_maximum and maximum_speed.
 void read_bounds(ConfigTable& table, Unit shown, stage::AxisLimits& limits);
 
-// A unit's name; an error where it is none.
+// Reads the name of a unit. nullopt if the key is absent or, with an error, wrong.
 std::optional<Unit> read_unit(ConfigTable& table, std::string_view key);
 
-// Nothing where one is missing, or where only what a pulse is can tell.
+// Reports whether `a` is less than `b`. nullopt if one is absent, or if the comparison needs the size of a pulse.
 std::optional<bool> below(const std::optional<Quantity>& a, const std::optional<Quantity>& b);
 
 }  // namespace axisgate::server

@@ -25,7 +25,7 @@ constexpr std::size_t kModelMax = 64;
 struct Limit {
   std::string_view key;
   std::optional<Quantity> AxisLimits::*value;
-  int sign;  // beyond is what is more, or with -1 what is less
+  int sign;  // 1: a greater value is beyond the limit; -1: a smaller one
 };
 constexpr std::array<Limit, 3> kLimits = {{{"travel_minimum", &AxisLimits::travel_minimum, -1},
                                            {"travel_maximum", &AxisLimits::travel_maximum, 1},
@@ -35,7 +35,7 @@ Result<std::int64_t> whole_pulses(const Limit& limit, const Quantity& amount, co
   return limit.value == &AxisLimits::maximum_speed ? to_pulses_per_second(amount, scale) : to_pulses(amount, scale);
 }
 
-// It stands in messages to people, of which no byte may steer a terminal.
+// The model appears in messages to people, so it must not contain a byte that controls a terminal.
 std::string read_model(ConfigTable& table) {
   constexpr std::string_view kAllowed = "the stage's model, 1 to 64 printable ASCII characters";
   const std::optional<std::string> model = table.text("name");
@@ -46,7 +46,7 @@ std::string read_model(ConfigTable& table) {
   return model.value_or("");
 }
 
-// Whether `unit` is one of a stage that turns; pulses are of either kind.
+// Reports whether `unit` fits a rotary or a linear stage; pulses fit both.
 bool fits(Unit unit, bool rotary) { return unit == Unit::pulses || (unit == Unit::degrees) == rotary; }
 
 Unit checked_unit(ConfigTable& table, bool rotary, Unit otherwise) {
@@ -100,7 +100,7 @@ Stage read_profile(ConfigTable& table) {
   const std::optional<bool> kind = table.choice<bool>("kind", kStageKinds);
   if (!kind && !table.has("kind")) table.missing("kind", "\"linear\" or \"rotary\"");
   if (!kind) {
-    // Without it nothing is known of the units.
+    // Without the kind, the units cannot be checked.
     for (const char* key : {"pulse", "unit", "travel_minimum", "travel_maximum", "maximum_speed", "modulo"}) {
       table.allow(key);
     }

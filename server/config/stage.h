@@ -1,4 +1,4 @@
-// Stage profiles: what a stage is and may do, in a small TOML file of its own that axes name (deploy/stages).
+// Stage profiles: properties and limits of a stage, in a small TOML file that axes name (deploy/stages).
 #pragma once
 
 #include <optional>
@@ -13,23 +13,23 @@ namespace axisgate::server {
 
 struct Stage {
   stage::StageProfile profile;
-  Unit unit = Unit::micrometers;  // how positions are shown, unless the axis says otherwise
-  stage::AxisLimits limits;       // its travel and its speed
+  Unit unit = Unit::micrometers;  // unit of positions, unless the axis has another
+  stage::AxisLimits limits;       // travel and speed
 };
 
-// The profile that the key `stage` of an axis's table names: a path, of which a relative one counts from the folder of
-// `file`, or the profile itself as a table. Nothing where there is no such key, or where something is wrong, which is
-// an error at the profile's own file and line.
+// Returns the profile that the key `stage` of an axis's table names: a path, relative to the folder of `file`, or the
+// profile itself as a table. nullopt if the key is absent, or if the profile has an error, which is reported at its own
+// file and line.
 std::optional<Stage> read_stage(ConfigTable& axis, std::string_view file, std::vector<ConfigError>& errors);
 
-// Another unit than the stage's, where the axis has one that fits.
+// Returns the axis's own unit if it has one that fits, otherwise the stage's.
 Unit unit_on(ConfigTable& axis, const Stage& stage);
 
-// Gives the axis, whose own limits have been read, its stage and the limits of that. The axis's own can only be
-// narrower: errors otherwise.
+// Gives the axis, whose own limits have been read, its stage and the stage's limits. Reports an error if a limit of the
+// axis is beyond the stage's.
 void put_on_stage(ConfigTable& table, const Stage& stage, stage::AxisProfile& axis);
 
-// Errors at the amounts of the table that are no whole pulses of the stage.
+// Reports an error for each amount of the table that is not a whole number of the stage's pulses.
 void check_whole_pulses(ConfigTable& table, const stage::StageProfile& stage, const stage::AxisLimits& limits);
 
 }  // namespace axisgate::server

@@ -1,4 +1,4 @@
-// A configuration as text: the other way round than config.h.
+// Conversion of a configuration to text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace axisgate::server {
 
-// TOML with every key that is in effect, defaults included; parse_config() reads it as the same configuration.
+// Returns TOML with every key in effect, including defaults. parse_config() reads it as the same configuration.
 std::string to_toml(const Config& config);
 
 }  // namespace axisgate::server

@@ -1,4 +1,4 @@
-// The words that the configuration has for what is chosen.
+// Words of the configuration for values that are a choice.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr std::array<std::pair<std::string_view, FlowControl>, 4> kFlowCo
      {"xonxoff", FlowControl::xon_xoff},
      {"dtr_dsr", FlowControl::dtr_dsr},
      {"none", FlowControl::none}}};
-// Whether what moves and changes is done where the disk refuses the journal.
+// Values of `unavailable`: whether motions and changes are allowed if the disk refuses the journal.
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kUnavailable = {{{"refuse", false}, {"act", true}}};
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kStageKinds = {{{"linear", false}, {"rotary", true}}};
 inline constexpr std::array<std::pair<std::string_view, Role>, 4> kRoles = {
@@ -30,7 +30,7 @@ inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> k
     {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
 inline constexpr std::array<std::pair<std::string_view, rml1::Streaming>, 2> kStreamings = {
     {{"paced", rml1::Streaming::paced}, {"full", rml1::Streaming::full}}};
-// Of `slack`, in the place of a number.
+// Word for `slack` instead of a number.
 inline constexpr std::string_view kMeasured = "measured";
 inline constexpr std::array<std::pair<std::string_view, rml1::AtLoss>, 2> kMillAtLoss = {
     {{"abort", rml1::AtLoss::abort}, {"leave", rml1::AtLoss::leave}}};

@@ -16,15 +16,15 @@
 namespace axisgate::server {
 namespace {
 
-// How long a listener rests that could not accept, and how often ended connections of the reserve are looked for.
-// Short: a stop may wait behind many who displace each other.
+// Pause of a listener that could not accept, and interval of the search for ended connections of the reserve. Short,
+// since a stop may wait until many connections have displaced each other.
 constexpr auto kLookAgain = std::chrono::milliseconds(5);
 
 bool is_out_of_descriptors(int error) {
   return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
 }
 
-// Nothing is wrong with the listener: nobody was there any more, or we were interrupted.
+// Reports an error that is not the listener's: the client has gone, or the call was interrupted.
 bool is_passing(int error) {
   return error == EAGAIN || error == EINTR || error == ECONNABORTED || error == EPROTO || error == EPERM;
 }
@@ -42,7 +42,7 @@ Acceptor::Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_conne
 
 int Acceptor::accept_connection(int listener) {
   const int connection = ::accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-  // A Unix socket refuses it, and needs none.
+  // Fails on a Unix socket, which does not need it.
   const int on = 1;
   if (connection >= 0) ::setsockopt(connection, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
   return connection;
@@ -83,7 +83,8 @@ Acceptor::Next Acceptor::accept_one(Listener& listener) {
     warn_seldom(fmt::format("as many connections are open as are allowed: {}", limits_.open));
     return accept_reserved(listener);
   }
-  // The reserve comes first: what its connections leave behind is not for ordinary ones, or it would wear away.
+  // The reserve is filled first: descriptors that its connections free are not for ordinary connections, or it would
+  // shrink.
   if (!reserve_.restore()) return accept_out_of_descriptors(listener, EMFILE);
   Descriptor connection(accept_(listener.socket.native_handle()));
   const int error = errno;
@@ -123,13 +124,13 @@ void Acceptor::take_in(Descriptor connection, Origin origin) {
   }
   warn_seldom(fmt::format("{} has as many connections open as one caller may: {}", owner, limits_.of_one));
   look_again_later();
-  // There is one: the reserve was full of spare descriptors before this connection was accepted.
+  // There is a place: the reserve was full of spare descriptors before this connection was accepted.
   reserve_.open_place();
   displaced_ = reserve_.displaced();
   take_into_reserve(std::move(connection), origin);
 }
 
-// Into a place that was opened for it.
+// The place must already be open.
 void Acceptor::take_into_reserve(Descriptor connection, Origin origin) {
   reserve_.keep(connection.get());
   in_reserve_ = reserve_.connections();

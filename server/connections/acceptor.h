@@ -1,4 +1,4 @@
-// Accepts connections for as long as the daemon lives, whatever happens to its descriptors.
+// Accepts connections as long as the daemon runs, even without free descriptors.
 #pragma once
 
 #include <atomic>
@@ -20,40 +20,40 @@
 namespace axisgate::server {
 
 struct ConnectionLimits {
-  std::size_t open = 0;     // at once, those in the reserve not counted
-  std::size_t reserve = 8;  // beyond that or the next, or without free descriptors; 1 at least
-  std::size_t of_one = std::numeric_limits<std::size_t>::max();  // of the open ones, of one owner (callers.h)
+  std::size_t open = 0;     // at once, without those in the reserve
+  std::size_t reserve = 8;  // further connections beyond `open` or `of_one`, or without free descriptors; at least 1
+  std::size_t of_one = std::numeric_limits<std::size_t>::max();  // open connections of one owner (callers.h)
 };
 
 struct ConnectionCounts {
-  std::size_t open = 0;                  // now, those in the reserve not counted
+  std::size_t open = 0;                  // now, without those in the reserve
   std::size_t in_reserve = 0;            // now
-  std::uint64_t accepted = 0;            // since the start, those into the reserve among them
-  std::uint64_t reserved = 0;            // into the reserve
-  std::uint64_t displaced = 0;           // out of the reserve, by a newer one
-  std::uint64_t out_of_descriptors = 0;  // times that a connection found none free
+  std::uint64_t accepted = 0;            // since the start, including those in the reserve
+  std::uint64_t reserved = 0;            // accepted into the reserve
+  std::uint64_t displaced = 0;           // closed in the reserve for a newer one
+  std::uint64_t out_of_descriptors = 0;  // attempts to accept that found no free descriptor
 };
 
-// Called on its strand, but for counts().
+// Use on its strand, except for counts().
 class Acceptor {
  public:
   enum class Service { all, stop_only };
-  // By which kind of listener somebody came.
+  // Kind of the listener through which the client connected.
   enum class Origin { this_machine, network };
-  // A connection, non-blocking; the receiver closes it.
+  // Receives a non-blocking connection, which the receiver closes.
   using OnConnection = std::function<void(Descriptor connection, Service service, Origin origin)>;
-  // As accept(2): a descriptor, or -1 and errno.
+  // Works like accept(2): returns a descriptor, or -1 with errno set.
   using Accept = std::function<int(int listener)>;
 
   Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_connection, Accept accept = accept_connection);
 
-  // Accepts there, too; a non-blocking listening socket.
+  // Accepts on this non-blocking listening socket as well.
   void listen(Descriptor listener, Origin origin = Origin::this_machine);
 
-  // Accepts nowhere any more.
+  // Stops accepting on all listeners.
   void close();
 
-  ConnectionCounts counts();  // from any thread
+  ConnectionCounts counts();  // thread safe
 
   static int accept_connection(int listener);
 

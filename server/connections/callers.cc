@@ -36,7 +36,7 @@ struct Address {
   std::string port;
 };
 
-// In numbers; nothing once the connection has gone.
+// Returns host and port as numbers. nullopt if the connection has gone.
 std::optional<Address> address_of_peer(int connection) {
   sockaddr_storage address{};
   socklen_t size = sizeof(address);

@@ -1,4 +1,4 @@
-// Who is at the other end of a connection, before anything has been said: the kernel knows.
+// Identification of the peer of a new connection by the kernel.
 #pragma once
 
 #include <sys/types.h>
@@ -8,19 +8,19 @@
 
 namespace axisgate::server {
 
-// The user who connected; none for a TCP connection.
+// Returns the user who connected. nullopt for a TCP connection.
 std::optional<uid_t> peer_uid(int connection);
 
-// The owner of that connection, as far as limits go: "uid 1000", "uid 1000 over TCP" on this machine, or the machine's
-// address, "192.168.0.7". Where the kernel does not name a peer over loopback, all of these are one owner, since a
-// caller there can choose among 16 million addresses.
+// Returns the owner for connection limits: "uid 1000", "uid 1000 over TCP" on this machine, or the address of another
+// machine, "192.168.0.7". If the kernel does not identify a peer over loopback, all addresses in 127.0.0.0/8 are one
+// owner, since a caller there can choose among 16 million of them.
 std::string connection_owner(int connection);
 
-// Of a TCP connection: "127.0.0.1:39482", "[::1]:39482"; "nobody" once it has gone.
+// Returns the address of a TCP peer: "127.0.0.1:39482", "[::1]:39482"; "nobody" if the connection has gone.
 std::string peer_address(int connection);
 
-// "unix alice", after the machine's own /etc/passwd, or "unix uid 1234". Directories over the network are not asked:
-// a stop would wait for them.
+// Returns "unix alice" according to the machine's own /etc/passwd, or "unix uid 1234". Directories over the network are
+// not queried, since a stop would wait for them.
 std::string caller_name(uid_t uid);
 
 }  // namespace axisgate::server

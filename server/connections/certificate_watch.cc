@@ -13,9 +13,9 @@
 namespace axisgate::server {
 namespace {
 
-constexpr auto kSoon = std::chrono::days(14);  // as the alert AxisgateCertificateExpires
+constexpr auto kSoon = std::chrono::days(14);  // the same as in the alert AxisgateCertificateExpires
 constexpr auto kPause = std::chrono::days(1);
-constexpr auto kAfterExpiry = std::chrono::seconds(1);  // the two clocks may differ a little at the end of a day
+constexpr auto kAfterExpiry = std::chrono::seconds(1);  // covers a small difference between the clocks
 
 }  // namespace
 

@@ -11,15 +11,15 @@
 namespace axisgate::server {
 
 struct CertificateNotice {
-  std::string text;      // for the log; empty if the certificate is good for long enough
+  std::string text;      // for the log; empty if the certificate is valid for long enough
   Duration next_look{};  // from now
 };
 
 // `until` is expiry() of the file at `path`.
 CertificateNotice notice_of(const std::string& path, const Result<WallTime>& until, WallTime now);
 
-// Looks at the file now, once a day, and when the certificate expires, and logs what is wrong with it. Each look reads
-// the file again, since it is replaced while the daemon runs. `timeouts` outlives the call, and ends the watch.
+// Checks the file now, once a day, and when the certificate expires, and logs problems. Each check reads the file
+// again, since it may be replaced while the daemon runs. `timeouts` must outlive the call; its end ends the watch.
 void watch_certificate(const std::string& path, Timeouts& timeouts);
 
 }  // namespace axisgate::server

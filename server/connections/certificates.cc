@@ -42,7 +42,7 @@ Result<File> open(const std::string& path) {
                 "the user as whom the daemon runs must be able to read it");
 }
 
-// No passphrase is requested: a daemon that starts at night has nobody to ask.
+// Supplies no passphrase: nobody is there to type it when a daemon starts at night.
 int no_passphrase(char*, int, int, void*) { return 0; }
 
 Result<std::vector<Certificate>> read_certificates(const std::string& path) {

@@ -1,4 +1,4 @@
-// What is wrong with certificate files, found before gRPC would fail to serve with them and say nothing.
+// Checks of certificate files, since gRPC would fail without a message.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace axisgate::server {
 
-// Whether the PEM file holds certificates and nothing broken. invalid_request with what is wrong.
+// Checks that the PEM file contains certificates and no damaged ones. Fails with invalid_request.
 Result<void> check_certificate(const std::string& path);
 
-// Whether the PEM file holds a private key without a passphrase, which only this user and group may read, which others
-// may not change, and which belongs to the first of `certificate`, if that is not empty. invalid_request with what is
-// wrong.
+// Checks that the PEM file contains a private key without a passphrase, which only this user and group may read, which
+// others may not change, and which belongs to the first certificate in `certificate`, if that is not empty. Fails with
+// invalid_request.
 Result<void> check_key(const std::string& path, const std::string& certificate);
 
-// When the first certificate of the file expires. invalid_request as above.
+// Returns the time at which the first certificate of the file expires. Fails with invalid_request.
 Result<WallTime> expiry(const std::string& path);
 
 }  // namespace axisgate::server

@@ -7,18 +7,18 @@
 namespace axisgate::server {
 namespace {
 
-// Each costs some 100 kB.
+// Each connection costs about 100 kB.
 constexpr std::size_t kConnectionsMax = 4096;
-// An idle daemon with one device has about 55 open, the reserve's among them; the metrics page may have 128
-// connections.
+// An idle daemon with one device has about 55 descriptors open, including the reserve's. The metrics page may have up
+// to its limit of 128 connections.
 constexpr std::size_t kSetAside = 320;
-// The client's, and both ends of its way to gRPC.
+// The client's connection, and both ends of its connection to gRPC.
 constexpr std::size_t kDescriptorsEach = 3;
 
 }  // namespace
 
 std::size_t connections_within(std::size_t descriptors) {
-  // Where hardly any are allowed, half of them serves better than none; the reserve remains when they run out.
+  // With a very low limit, half of the descriptors serve connections. The reserve remains when they run out.
   const std::size_t left = descriptors > 2 * kSetAside ? descriptors - kSetAside : descriptors / 2;
   return std::min(left / kDescriptorsEach, kConnectionsMax);
 }

@@ -45,7 +45,7 @@ sockaddr_un unix_address(const std::string& path) {
   return address;
 }
 
-// Whether a connection is accepted there; any other error than a refusal counts as somebody, who is left alone.
+// Reports whether a process serves the socket. Any error other than a refusal counts as served, so the socket is kept.
 bool somebody_listens(const std::string& path) {
   const sockaddr_un address = unix_address(path);
   const Descriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
@@ -63,7 +63,7 @@ Result<void> prepare_directory(const std::filesystem::path& directory) {
   }
   struct stat status {};
   const bool directory_there = ::stat(directory.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
-  // Under /tmp anybody may have made it first, to put a socket of theirs in the place of ours.
+  // Under /tmp, another user may have made the directory first, to replace the daemon's socket.
   const bool ours = status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
   const bool in_tmp = directory.parent_path() == "/tmp";
   if (directory_there && (ours || !in_tmp)) return {};
@@ -112,7 +112,7 @@ Result<Descriptor> listen_on(TcpAddress& address) {
   const Addresses where = resolve(address);
   if (where == nullptr) return refuse_address(to_string(address) + " is not an address of this machine", "");
   Descriptor socket(::socket(where->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  // A daemon that starts again does not wait for the connections of the last one to be forgotten.
+  // Lets the daemon restart without waiting for the previous run's connections to time out.
   const int on = 1;
   ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   if (::bind(socket.get(), where->ai_addr, where->ai_addrlen) != 0 || ::listen(socket.get(), SOMAXCONN) != 0) {
@@ -143,7 +143,7 @@ Result<UnixListener> UnixListener::open(const std::string& path) {
     return refuse_address(fmt::format("cannot make the socket {}: {}", path, error_text(errno)),
                           "set another path with the key `socket` in the configuration");
   }
-  // The file is there from here on, and goes with this.
+  // From here on the file exists, and `listener` removes it.
   UnixListener listener(path, std::move(socket));
   if (::chmod(path.c_str(), 0666) != 0 || ::listen(listener.socket_.get(), SOMAXCONN) != 0) {
     return refuse_address(fmt::format("cannot listen on the socket {}: {}", path, error_text(errno)),

@@ -1,4 +1,4 @@
-// The sockets that the daemon listens on. Errors about an address are worded so that a person can fix it.
+// The sockets on which the daemon listens. Each error about an address names a remedy.
 #pragma once
 
 #include <sys/stat.h>
@@ -12,23 +12,23 @@
 
 namespace axisgate::server {
 
-// Listens there, on a non-blocking socket; with port 0 on any free one, which `address` then names.
+// Listens at `address` on a non-blocking socket. Port 0 takes any free port, and `address` then contains it.
 Result<Descriptor> listen_on(TcpAddress& address);
 
-// A Unix socket that is listened on, and its file. Every local user may connect, as to the loopback port; the directory
-// decides who reaches the socket.
+// A UnixListener is a listening Unix socket with its file. Every local user may connect, as to the loopback port; the
+// directory decides who reaches the socket.
 class UnixListener {
  public:
-  // Makes the directory, one level, if it is missing (0755 under /run, else 0700: for this user alone) and removes a
-  // socket that nobody listens on any more. Refuses a directory in /tmp that is another's or open to others, a path
-  // that is not a socket, and a socket that somebody serves.
+  // Makes the directory (one level) if it is missing: 0755 under /run, otherwise 0700. Removes an old socket on which
+  // nobody listens. Fails for a directory in /tmp that belongs to or is writable by others, a path that is not a
+  // socket, and a socket that another process serves.
   static Result<UnixListener> open(const std::string& path);
-  // Removes the file, unless another has been put in its place.
+  // Removes the file, unless it has been replaced by another.
   ~UnixListener();
   UnixListener(UnixListener&& other) noexcept = default;
   UnixListener& operator=(UnixListener&&) = delete;
 
-  // The non-blocking socket; the file stays this object's.
+  // Returns the non-blocking socket; the file stays with this object.
   Descriptor take_socket() { return std::move(socket_); }
   const std::string& path() const { return path_; }
 

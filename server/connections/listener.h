@@ -1,4 +1,4 @@
-// Where the daemon listens, and the thread that accepts there.
+// The daemon's listening sockets, and the thread that accepts connections.
 #pragma once
 
 #include <memory>
@@ -14,30 +14,30 @@
 
 namespace axisgate::server {
 
-// A thread of its own, so that neither lines nor readers make a stop wait for its connection.
+// A Listener has its own thread, so that neither lines nor readers delay the connection of a stop.
 class Listener {
  public:
-  // Listens at all of them; clients wait to be accepted until start(). Refuses an address that somebody else serves,
-  // and a socket whose directory cannot be trusted.
+  // Listens at all addresses; clients wait to be accepted until start(). Fails if another process serves an address, or
+  // if the socket's directory cannot be trusted.
   static Result<std::unique_ptr<Listener>> open(TcpAddress address, const std::string& socket,
                                                 std::optional<TcpAddress> network);
-  // stop(), and the socket's file is gone.
+  // Calls stop() and removes the socket's file.
   ~Listener();
 
-  // Hands connections over, on its thread. Call it once.
+  // Passes connections to `on_connection` on the listener's thread. Call it once.
   void start(ConnectionLimits limits, Acceptor::OnConnection on_connection);
-  // From now on nobody is accepted; what is on strand() continues.
+  // Stops accepting connections; strand() continues to run.
   void stop_accepting();
-  // Nothing runs on strand() any more.
+  // After this, nothing runs on strand().
   void stop();
 
-  // Of its thread.
+  // Strand of the listener's thread.
   Strand strand() const { return strand_; }
 
-  const TcpAddress& address() const { return address_; }  // with the port really taken
+  const TcpAddress& address() const { return address_; }  // with the port actually taken
   const std::string& socket() const { return unix_.path(); }
   const std::optional<TcpAddress>& network() const { return network_; }
-  ConnectionCounts counts() { return acceptor_->counts(); }  // after start(), from any thread
+  ConnectionCounts counts() { return acceptor_->counts(); }  // after start(); thread safe
 
  private:
   Listener(TcpAddress address, Descriptor tcp, UnixListener unix_socket);

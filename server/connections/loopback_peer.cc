@@ -51,7 +51,7 @@ struct Question {
   inet_diag_req_v2 socket{};
 };
 
-// The peer's own socket: our ends are its ends, turned round.
+// Builds the question about the peer's own socket, with the two ends exchanged.
 std::optional<Question> question_about(int connection) {
   sockaddr_storage ours{}, theirs{};
   socklen_t size = sizeof(ours);
@@ -86,7 +86,7 @@ std::optional<uid_t> loopback_uid(int connection) {
   if (::send(kernel.get(), &*question, sizeof(*question), 0) != static_cast<ssize_t>(sizeof(*question))) {
     return std::nullopt;
   }
-  // The kernel answers within send(): nothing is waited for.
+  // The kernel answers within send(), so the answer is already there.
   alignas(nlmsghdr) std::array<char, 1024> answer{};
   const ssize_t size = ::recv(kernel.get(), answer.data(), answer.size(), MSG_DONTWAIT);
   if (size < static_cast<ssize_t>(NLMSG_LENGTH(sizeof(inet_diag_msg)))) return std::nullopt;

@@ -1,4 +1,4 @@
-// Who is at the other end of a TCP connection over loopback: the kernel knows.
+// Identification of the peer of a TCP connection over loopback by the kernel.
 #pragma once
 
 #include <sys/types.h>
@@ -7,8 +7,8 @@
 
 namespace axisgate::server {
 
-// The user whose socket it is, asked of the kernel by sock_diag(7). Nothing for a peer on another machine, for one that
-// has gone, and where the kernel does not say.
+// Returns the user who owns the peer's socket, from sock_diag(7). nullopt for a peer on another machine, a peer that
+// has gone, or if the kernel does not answer.
 std::optional<uid_t> loopback_uid(int connection);
 
 }  // namespace axisgate::server

@@ -8,7 +8,7 @@
 namespace axisgate::server {
 namespace {
 
-// 0 is no socket's.
+// Returns 0 if the descriptor is not a socket; no socket has inode 0.
 ino_t socket_inode(int descriptor) {
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode) ? status.st_ino : 0;

@@ -1,4 +1,4 @@
-// Which of the connections that were handed over are still open.
+// Count of the connections that are still open after they were handed over.
 #pragma once
 
 #include <sys/types.h>
@@ -10,23 +10,23 @@
 
 namespace axisgate::server {
 
-// gRPC closes a connection itself and reports that to nobody. So each connection is identified by its descriptor and
-// its inode, and is checked when the number matters. Thread safe.
+// gRPC closes a connection itself without a report. So each connection is identified by its descriptor and its inode,
+// and is checked when the count is needed. Thread safe.
 class OpenConnections {
  public:
-  // At most `limit` have room, and of these at most `limit_of_one` of one owner.
+  // Limits all connections to `limit`, and those of one owner to `limit_of_one`.
   OpenConnections(std::size_t limit, std::size_t limit_of_one) : limit_(limit), limit_of_one_(limit_of_one) {}
 
   bool has_room();
   bool has_room_for(const std::string& owner);
-  // Before it is handed over: afterwards the number may be another's at any time.
+  // Call it before the connection is handed over: afterwards, the descriptor's number may be reused at any time.
   void add(int descriptor, std::string owner);
   std::size_t count();
 
  private:
   struct Connection {
     int descriptor;
-    ino_t inode;  // the kernel gives every socket one of its own
+    ino_t inode;  // unique for each socket
     std::string owner;
   };
   void forget_closed();
@@ -34,7 +34,7 @@ class OpenConnections {
   const std::size_t limit_;
   const std::size_t limit_of_one_;
   std::mutex mutex_;
-  std::vector<Connection> connections_;  // those closed since the last look among them
+  std::vector<Connection> connections_;  // includes those closed since the last check
 };
 
 }  // namespace axisgate::server

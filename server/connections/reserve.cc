@@ -8,7 +8,7 @@
 namespace axisgate::server {
 namespace {
 
-// Closed in both directions: the server side has shut it down.
+// Reports whether the server side has shut the connection down in both directions.
 bool ended(const Descriptor& connection) {
   pollfd poll{connection.get(), 0, 0};
   return ::poll(&poll, 1, 0) == 1 && (poll.revents & (POLLHUP | POLLERR)) != 0;
@@ -23,7 +23,7 @@ bool Reserve::open_place() {
   if (spare_.size() < kDescriptorsEach) return false;
   spare_.resize(spare_.size() - kDescriptorsEach);
   if (connections_.size() < places_) return true;
-  // The server side sees its end as if the client had left, and closes its descriptor.
+  // To the server side, this looks as if the client had left, so it closes its descriptor.
   ::shutdown(connections_.front().get(), SHUT_RDWR);
   connections_.pop_front();
   ++displaced_;
@@ -37,7 +37,7 @@ void Reserve::keep(int connection) {
 
 bool Reserve::restore() {
   forget_ended();
-  // One place more, so that a newcomer need not wait until the one that it displaces has been closed.
+  // One more place, so that a new connection need not wait until the connection that it displaces has been closed.
   const std::size_t wanted = (places_ + 1 - connections_.size()) * kDescriptorsEach;
   while (spare_.size() < wanted) {
     Descriptor spare(::eventfd(0, EFD_CLOEXEC));

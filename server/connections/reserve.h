@@ -1,4 +1,4 @@
-// Descriptors kept back so that a connection with a stop is accepted when there are none left for others.
+// Spare descriptors, with which a connection for a stop is accepted when no others are free.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,29 @@
 
 namespace axisgate::server {
 
-// Holds as many descriptors open as its connections will need, and closes those of one of them when it comes. A
-// newcomer displaces the connection that has been there longest, so that a program that opens connections and leaves
-// them open does not fill the reserve. Not thread safe.
+// Keeps spare descriptors open for its connections, and closes two of them before each new connection. A new connection
+// displaces the oldest, so that a program that opens connections and leaves them open does not fill the reserve. Not
+// thread safe.
 class Reserve {
  public:
-  // For this many connections at once, 1 at least. Without free descriptors it begins empty and fills itself by
-  // restore().
+  // `places`: connections at once, at least 1. If no descriptors are free, the reserve starts empty and restore() fills
+  // it.
   explicit Reserve(std::size_t places);
 
-  // Frees what one connection needs: accept it next. False when that is not there yet, since a displaced connection
-  // takes a moment to be closed.
+  // Frees the descriptors for one connection, which must be accepted next. Returns false if there are none yet, since a
+  // displaced connection takes a moment to close.
   bool open_place();
-  // Keeps a second descriptor of a connection that was just accepted, by which its end is seen and it is displaced.
-  // Without a free one the connection is left to end by itself.
+  // Keeps a second descriptor of a connection just accepted, to detect its end and to displace it. If no descriptor is
+  // free, the connection is not tracked.
   void keep(int connection);
-  // Takes back what ended connections have left. False as long as it has not all that further connections need.
+  // Takes back the descriptors of ended connections. Returns false if spare descriptors are still missing.
   bool restore();
-  std::size_t connections() const { return connections_.size(); }  // as of the last of the calls above
+  std::size_t connections() const { return connections_.size(); }  // as of the last call of a function above
 
   std::uint64_t displaced() const { return displaced_; }  // since the start
 
  private:
-  // The server side of a connection holds one descriptor of it, the reserve another.
+  // The server side has one descriptor of a connection, the reserve another.
   static constexpr std::size_t kDescriptorsEach = 2;
 
   void forget_ended();

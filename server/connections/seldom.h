@@ -1,4 +1,4 @@
-// Keeps a log line that something outside could cause a thousand times a second to one in ten seconds.
+// Limits a log line that an outside event could cause a thousand times a second to one in ten seconds.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace axisgate::server {
 
 class Seldom {
  public:
-  // Whether the last time that it was is long enough ago.
+  // Reports whether the last true result is at least 10 s ago.
   bool due() {
     const TimePoint now = monotonic_now();
     if (last_ && now - *last_ < kApart) return false;

@@ -36,11 +36,11 @@ const Problem kUnknown{.reason = Reason::outcome_unknown,
                        .message = "the daemon ended without knowing the outcome; its start may have been sent",
                        .hint = "look where the stage is; it is never sent again"};
 
-// How a motion ended, as far as is known.
+// Known end of a motion.
 struct Ending {
   MotionState state = MotionState::unknown;
   std::optional<Problem> problem{};
-  std::optional<StartedMotion> started{};  // as the record has it
+  std::optional<StartedMotion> started{};  // the motion's entry in the record; nullopt: not there
 
   bool was_not_sent() const { return problem && problem->reason == Reason::not_sent; }
 };
@@ -51,18 +51,19 @@ Ending ending_of(const StartedMotion& started) {
   return {started.state, well ? std::nullopt : std::optional(kUnknown), started};
 }
 
-// Of a device.
+// Records of one device.
 struct OnRecord {
-  std::optional<StartedMotions> started;  // nothing: any may have been
+  std::optional<StartedMotions> started;  // nullopt: any motion may have been started
   stage::MotionId last_in_journal = 0;
 
-  // Of a motion that is not among those kept. 0: its number is not in the journal, so it is behind all that are.
+  // Reports whether a motion that is not among the kept ones may have been started. 0: the number is not in the
+  // journal, so it is higher than all that are.
   bool may_have_started(stage::MotionId number) const {
     return !started || (number == 0 ? last_in_journal + 1 : number) <= started->dropped_through;
   }
 };
 
-// The newest of those chosen.
+// Ending of the newest motion for which `chosen` returns true.
 template <class Chosen>
 Ending find_ending(const OnRecord& record, stage::MotionId number, Chosen chosen) {
   if (record.started) {
@@ -74,7 +75,7 @@ Ending find_ending(const OnRecord& record, stage::MotionId number, Chosen chosen
                                          : Ending{MotionState::failed, kNotSent};
 }
 
-// By device. To be read before anything is appended.
+// Returns the records by device. Call it before anything is appended to the journal.
 std::map<std::string, OnRecord> read_records(const Journal* journal, const std::vector<RememberedRequest>& open,
                                              const StartedBefore& started) {
   std::map<std::string, OnRecord> records;
@@ -106,7 +107,7 @@ std::optional<RequestChange> settle(RequestMemory& requests, const RememberedReq
   };
   const Ending ending = find_ending(record, request.motion, is_its);
   if (ending.was_not_sent()) return requests.refused(key, *ending.problem);
-  // Its entry may not have been committed any more. Then only the record has its number.
+  // The entry may not have been committed, and then only the record has the motion's number.
   if (ending.started) requests.made(key, ending.started->motion, request.answer);
   return requests.ended(key, journal::answer_of(ended(request, ending)));
 }
@@ -121,24 +122,24 @@ journal::Entry entry_of(EntryKind kind, std::string device, std::string who, std
           .body = journal::json_text(body)};
 }
 
-// As the entry of the request had it, with its end.
+// Returns the entry of the request, with the motion's end added.
 journal::Entry end_of(const journal::StoredEntry& requested, const Ending& ending) {
   Json body = Json::parse(requested.entry.body, nullptr, false);
   if (!body.is_object()) body = Json::object();
   body["outcome"] = name(ending.state);
   if (ending.problem) body["reason"] = name(ending.problem->reason);
-  // settle_what_was_left() writes so of what has an id.
+  // settle_what_was_left() writes the refusal of a request with an id.
   if (ending.state == MotionState::failed && body.contains("request_id")) body["refused"] = true;
   return entry_of(EntryKind::motion_ended, requested.entry.device, requested.entry.who, requested.entry.motion, body);
 }
 
-// Empty where somebody has changed the file.
+// Returns an empty string if somebody has changed the file.
 std::string text_in(const Json& body, const char* key) {
   const auto found = body.find(key);
   return found != body.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-// The value of that name, up to `last`; nothing: none has it.
+// Returns the value with this name, up to `last`; nullopt if no value has it.
 template <class Named>
 std::optional<Named> named(std::string_view text, Named last) {
   for (int value = 0; value <= static_cast<int>(last); ++value) {
@@ -147,7 +148,7 @@ std::optional<Named> named(std::string_view text, Named last) {
   return std::nullopt;
 }
 
-// Nothing: the journal has no end of it.
+// Returns nullopt if the journal has no end of the motion.
 std::optional<Ending> ending_on_record(const Journal& journal, const std::string& device, stage::MotionId id) {
   const auto found = journal.read({.device = device, .motion = id, .kinds = {EntryKind::motion_ended}}, 1);
   if (!found || found->empty()) return std::nullopt;
@@ -161,7 +162,7 @@ std::optional<Ending> ending_on_record(const Journal& journal, const std::string
                                 .hint = fmt::format("look at `axisctl history --motion {}`", id)}};
 }
 
-// Of one whose facts were not written: as its request was.
+// Returns the request as a fact, for a motion whose facts were not written.
 FactRecord fact_of(const journal::Entry& requested) {
   stage::Motion motion;
   motion.id = requested.motion;
@@ -201,7 +202,7 @@ void end_unfinished(Journal& journal, EventBus& bus, const StartedBefore& starte
   }
 }
 
-// A fact is written after the entry of the same: of some motions the journal has the end, but the bus has not.
+// Publishes ends that the journal has and the bus lacks: a fact is written after the entry about the same event.
 void publish_missing_ends(const Journal& journal, EventBus& bus) {
   for (const FactPointer& newest : bus.open_motions()) {
     const stage::MotionId id = std::get<stage::MotionChanged>(newest->fact).motion.id;

@@ -1,4 +1,4 @@
-// What became of the requests and motions that a run before this one left without an end.
+// End of the requests and motions that the previous run left open.
 #pragma once
 
 #include <functional>
@@ -12,12 +12,13 @@
 
 namespace axisgate::server {
 
-// Of a device, MotionRecord::started_before(). Nothing: any motion may have been started.
+// Returns MotionRecord::started_before() of a device; nullopt: any motion may have been started.
 using StartedBefore = std::function<std::optional<StartedMotions>(std::string_view device)>;
 
-// Before anybody asks. A motion that was not started ends with not_sent, and its request's id is free. What may have
-// been started or changed ends with outcome_unknown, unless its outcome is on record; it never acts again. `bus` gets
-// the outcome of each motion as a fact, for watchers that resume. `journal` may be null.
+// Ends open requests and motions. Call it before callers can ask about them. A motion that was not started ends with
+// not_sent, and its request's id is free. Motions and changes that may have been started end with outcome_unknown,
+// unless their outcome is on record; they never act again. `bus` receives the outcome of each motion as a fact, for
+// watchers that resume. `journal` may be null.
 void settle_what_was_left(journal::Journal* journal, journal::RequestMemory& requests, EventBus& bus,
                           const StartedBefore& started);
 

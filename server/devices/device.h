@@ -1,5 +1,5 @@
-// What every device is, whatever its kind: a name, a line with its recorder, and leases; it starts, winds down and
-// ends. A kind of device is a class derived from this, such as Stage.
+// A Device has a name, a line with its recorder, and leases; it starts, winds down and ends. Each kind of device, such
+// as Stage, derives from Device.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@
 
 namespace axisgate::server {
 
-// Who holds what of a device, and who waits.
+// Holders of a device's axes, and waiting callers.
 struct LeaseBoard {
   std::vector<Lease> held;
   std::vector<WaitingLease> waiting;
@@ -32,32 +32,34 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  // From any thread.
+  // These members may be called from any thread.
   const std::string& name() const { return name_; }
-  virtual std::string_view kind_name() const = 0;  // as `kind` in the configuration
+  virtual std::string_view kind_name() const = 0;  // value of `kind` in the configuration
   const std::string& line_description() const { return line_->description(); }
   Line& line() { return *line_; }
   Newest<LeaseBoard>& newest_leases() { return newest_leases_; }
   DeviceRecorder& recorder() { return recorder_; }
 
-  // For what is requested of every device, whatever its kind.
+  // Types for requests that every kind of device accepts.
   using Controller = Leases;
   using Request = std::function<void(Leases&, TimePoint)>;
-  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
+  // Runs the request on the device's strand. After shutdown() `too_late` is called instead. May be called from any
+  // thread.
   void post(Request request, std::function<void()> too_late = {});
 
-  // On the device's strand only.
+  // Call on the device's strand only.
   Leases& leases() { return leases_; }
 
   void start();
-  // Ends what runs, closes the line, and calls `done` on the strand. From any thread, once; not after shutdown().
+  // Ends everything in progress, closes the line, and then calls `done` on the strand. May be called once, from any
+  // thread, but not after shutdown().
   virtual void wind_down(std::function<void()> done) = 0;
-  // How long that takes at most, the last exchange on the line aside.
+  // Longest duration of wind_down(), not counting the last exchange on the line.
   virtual Duration wind_down_limit() const = 0;
   void shutdown();
 
  protected:
-  // `metrics`, `lease_tokens`, `thread` and `journal` outlive this. A null journal: none is kept.
+  // `metrics`, `lease_tokens`, `thread` and `journal` must outlive the device. If `journal` is null, nothing is kept.
   Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, LineThread& thread,
          Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, journal::Journal* journal);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Duration kUnexpectedLinePause = std::chrono::seconds(1);
 
-// "move of axes 1 and 2"; settings and questions move none: "execute".
+// Returns a text such as "move of axes 1 and 2". Settings and questions move no axes: "execute".
 std::string named(const stage::Motion& motion) {
   if (motion.axes.empty()) return std::string(stage::name(motion.kind));
   return fmt::format("{} of {}", stage::name(motion.kind), to_string(motion.axes));
@@ -24,7 +24,7 @@ std::string because(const std::optional<Problem>& problem) {
   return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
 }
 
-// ": axis 1 at 5000 pulses, axis 2 at 0 pulses"; empty if no position is known.
+// Returns a text such as ": axis 1 at 5000 pulses, axis 2 at 0 pulses"; empty if no position is known.
 std::string places_text(const stage::Stop& stop) {
   std::string text;
   for (const auto& [axis, pulses] : stop.came_to) {
@@ -63,8 +63,8 @@ void DeviceEvents::keep_and_tell(const stage::Event& event, TimePoint now) {
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 
-// The lines of a folded stop, and its end; also the lines that repeat a late stop, four a second on a line that is
-// shut.
+// Reports whether the event belongs to a folded stop: its lines or its end. Lines that repeat a late stop are folded,
+// too; a blocked line has four of them a second.
 bool DeviceEvents::is_folded(const stage::Event& event) const {
   if (const auto* written = std::get_if<stage::BytesWritten>(&event)) {
     return written->lane == Lane::stop && (repeated_stops_.folds(written->who) || !late_.empty());
@@ -77,7 +77,7 @@ bool DeviceEvents::is_folded(const stage::Event& event) const {
   return std::ranges::all_of(change->stop.callers, [this](const auto& who) { return repeated_stops_.folds(who); });
 }
 
-// Whether it says only that more callers wait for a stop that is known to be late.
+// Reports whether the event only says that more callers wait for a stop that is known to be late.
 bool DeviceEvents::is_known(const stage::Event& event) {
   const auto* change = std::get_if<stage::StopChanged>(&event);
   if (change == nullptr || !change->stop.late) return false;
@@ -123,7 +123,7 @@ void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
             escaped(stop.who), stop.count > 1 ? fmt::format(", {} times while nothing moved", stop.count) : "");
 }
 
-// An open stop is reported only if it is late: everybody expects the others to be obeyed.
+// Reports an open stop only if it is late: other stops are expected to be obeyed.
 void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
   const stage::Stop& stop = change.stop;
   const bool open = is_open(stop.state);

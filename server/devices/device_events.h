@@ -1,4 +1,4 @@
-// Where one device's events go: the event bus, the metrics, the recorder and the log.
+// Sends the events of one device to the event bus, the metrics, the recorder and the log.
 #pragma once
 
 #include <cstdint>
@@ -20,32 +20,33 @@
 
 namespace axisgate::server {
 
-// Called on the device's strand, as EventSink demands.
+// Runs on the device's strand, as EventSink demands.
 class DeviceEvents : public stage::EventSink {
  public:
-  // An event names what is to be published after it: `queues`, or the whole `state`. With `state_at_once` it is
-  // published before the next answer, since its caller may read the state. Called from within on_event().
+  // Part of the state that an event requires to be published after it: `queues`, or the whole `state`. With
+  // `state_at_once` the state is published before the next answer, because the caller may read it. OnDue is called from
+  // within on_event().
   enum class Due { queues, state, state_at_once };
   using OnDue = std::function<void(Due)>;
 
-  // Where events are kept; null: nowhere.
+  // Places where events are kept; null: not kept.
   struct Keepers {
-    MotionRecord* motions = nullptr;  // for the next run
-    StopRecord* stops = nullptr;      // likewise
+    MotionRecord* motions = nullptr;  // record for the next run
+    StopRecord* stops = nullptr;      // record for the next run
     journal::DeviceEntries* entries = nullptr;
   };
 
-  // All that is referred to outlives this.
+  // The referenced objects must outlive this one.
   DeviceEvents(std::string device, EventBus& bus, StageMetrics& metrics, DeviceRecorder& recorder,
                const Newest<stage::State>& newest_state, OnDue due, Keepers keepers);
 
   void on_event(const stage::Event& event, TimePoint now) override;
   bool state_followed() const override { return newest_state_.has_subscribers(); }
 
-  // The revision of the newest fact about a motion; 0 when there is none or it is long ago.
+  // Returns the revision of the newest fact about a motion; 0 if there is none or it is no longer remembered.
   std::uint64_t motion_revision(stage::MotionId motion) const;
-  // By which the times of that motion are shown: fixed at its first fact, so that they are the same in every reading,
-  // also where the calendar was set meanwhile.
+  // Returns the clock by which the motion's times are shown. It is fixed at the first fact, so the times are the same
+  // each time they are read, even if the calendar was set in between.
   Moment motion_clock(stage::MotionId motion) const;
 
  private:
@@ -53,7 +54,7 @@ class DeviceEvents : public stage::EventSink {
     std::uint64_t revision = 0;
     Moment clock;
   };
-  // So many motions are remembered; more than the controller keeps.
+  // Number of motions remembered; higher than the number that the controller keeps.
   static constexpr std::size_t kMotionsRemembered = 4096;
 
   void tell(const stage::MotionChanged& change, TimePoint now);
@@ -92,10 +93,11 @@ class DeviceEvents : public stage::EventSink {
   const Keepers keepers_;
   std::map<stage::MotionId, Known> motions_;
   RepeatedStops repeated_stops_;
-  std::set<stage::StopId> late_;  // open
-  // A line that stays down is tried again and again: the same change is reported once.
+  std::set<stage::StopId> late_;  // late stops that are open
+  // Last reported change. Connecting to a line that stays down is tried again and again, and the same change is
+  // reported once.
   std::optional<stage::LinkChanged> link_;
-  // A chattering line must not fill the disk: one log line a second, and how many were left out.
+  // Limits the log to one unexpected line a second, with the number left out: a chattering line must not fill the disk.
   TimePoint next_unexpected_line_{};
   std::uint64_t unexpected_lines_unlogged_ = 0;
 };

@@ -18,9 +18,9 @@ namespace axisgate::server {
 namespace {
 
 constexpr std::array<char, 16> kMark = {'a', 'x', 'i', 's', 'g', 'a', 't', 'e', ' ', 'j', 'o', 'b', ' ', '1', '\n', 0};
-constexpr std::size_t kNameSize = 104;  // a name of the spool, and an end
+constexpr std::size_t kNameSize = 104;  // longest name in the spool, and a terminating 0
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kLostSurfaces = 1'000'000;  // more than are sent between two boots
+constexpr std::uint64_t kLostSurfaces = 1'000'000;  // more than can be sent between two boots
 
 std::uint64_t bits_of(const rml1::Leaves& leaves) {
   return (leaves.surface ? 1u : 0u) | (leaves.revolutions ? 2u : 0u) | (leaves.rotation ? 4u : 0u) |
@@ -36,7 +36,7 @@ std::string text_in(const std::array<char, size>& chars) {
   return {chars.data(), ::strnlen(chars.data(), size)};
 }
 
-// Cut where it does not fit. The last character stays an end.
+// Cuts text that is too long. The last character stays 0.
 template <std::size_t size>
 void set_text(std::array<char, size>& chars, std::string_view text) {
   chars.fill(0);
@@ -45,13 +45,13 @@ void set_text(std::array<char, size>& chars, std::string_view text) {
 
 }  // namespace
 
-// A process that is killed leaves each number whole.
+// Layout of the file. Killing the process leaves each number whole.
 struct JobRecord::Content {
   std::array<char, 16> mark;
   std::array<char, 48> boot;
   std::atomic<std::uint64_t> job, state, through, part, from, abort_waits, leaves;
-  std::array<char, kNameSize> name;       // changes while `job` is 0
-  std::atomic<std::uint64_t> sent_least;  // 0 in the file of an older daemon: it is not known that anything was sent
+  std::array<char, kNameSize> name;       // changes only while `job` is 0
+  std::atomic<std::uint64_t> sent_least;  // 0 in the file of an older daemon: nothing is known to have been sent
   std::atomic<std::uint64_t> surfaces;
 };
 
@@ -89,8 +89,8 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
     content->surfaces = 0;
   }
   if (!same_boot) {
-    content->through = kAll;             // also for the run after this one
-    content->surfaces += kLostSurfaces;  // the last counts may not have come to the disk
+    content->through = kAll;             // counts for the next run, too
+    content->surfaces += kLostSurfaces;  // the last counts may not have reached the disk
   }
   content->mark = kMark;
   set_text(content->boot, boot);
@@ -115,7 +115,7 @@ void JobRecord::going_to(const rml1::WrittenRange& sent) {
   content_->through = sent.most;
 }
 
-// Part and place come first: killed between, the daemon leaves a part that may have begun, not one that runs again.
+// Writes part and place first: if the daemon is killed in between, the part may have begun, but never runs again.
 void JobRecord::set_state(const rml1::Job& job) {
   if (content_->job != job.number) return;
   content_->part = job.part;

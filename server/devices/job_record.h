@@ -1,4 +1,4 @@
-// Which job a mill was sent, and how far, kept in a file so that a run after this one knows it if this one is killed.
+// File with the last job sent to a mill, and the bytes sent, so that the next run knows both after this run was killed.
 #pragma once
 
 #include <cstddef>
@@ -16,36 +16,37 @@ namespace axisgate::server {
 struct LastJob {
   rml1::JobNumber job = 0;
   rml1::JobState state = rml1::JobState::running;
-  std::uint64_t through = 0;     // bytes of the job that may have gone to the line
-  std::size_t part = 0;          // as Job::part
-  std::uint64_t from = 0;        // as next_byte()
-  std::uint64_t sent_least = 0;  // of Job::written, or as it was when the last bytes were written
-  std::string name{};            // as Job::name; what it leaves is said with it
+  std::uint64_t through = 0;     // bytes of the job that may have been written to the line
+  std::size_t part = 0;          // value of Job::part
+  std::uint64_t from = 0;        // value of next_byte()
+  std::uint64_t sent_least = 0;  // `least` of Job::written, or the value at the time of the last write
+  std::string name{};            // value of Job::name, for messages about what the job leaves
   rml1::Leaves leaves{};
 };
 
-// On the device's strand. The file is mapped, as that of MotionRecord: nothing waits for the disk, and a crash of the
-// machine loses it.
+// Runs on the device's strand. The file is mapped like that of MotionRecord: no call waits for the disk, and a crash of
+// the machine loses it.
 class JobRecord {
  public:
-  // `boot` names this boot of the machine. internal, where the file cannot be made or is no regular one.
+  // `boot` names this boot of the machine. Fails with internal if the file cannot be created or is not a regular file.
   static Result<std::unique_ptr<JobRecord>> open(const std::string& path, std::string_view boot);
   ~JobRecord();
   JobRecord(const JobRecord&) = delete;
   JobRecord& operator=(const JobRecord&) = delete;
 
-  // As the run before left it; nothing where no job was sent. After a boot of the machine any byte may have gone.
+  // Returns the job that the previous run left; nullopt if no job was sent. After a boot of the machine any byte may
+  // have been sent.
   const std::optional<LastJob>& before() const { return before_; }
-  // The run before had an abort that had not left this host.
+  // Reports whether the previous run had an abort that had not left this host.
   bool abort_waited() const { return abort_waited_; }
-  // MillController::surfaces() of the runs before.
+  // MillController::surfaces() of earlier runs.
   std::uint64_t surfaces() const;
 
-  // Its next part, or the rest of that.
+  // Records the start of a job, of its next part, or of the rest of a part.
   void begin(const rml1::Job& job);
-  // Before bytes up to sent.most are written; the mill has those up to sent.least.
+  // Records that bytes up to sent.most are written next, and that the mill has those up to sent.least.
   void going_to(const rml1::WrittenRange& sent);
-  // Its state and its part. Of another job than the last that was begun: nothing.
+  // Records the job's state and part. Has no effect unless the job is the last that was begun.
   void set_state(const rml1::Job& job);
   void set_abort_waits(bool waits);
   void set_surfaces(std::uint64_t surfaces);

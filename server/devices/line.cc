@@ -18,7 +18,7 @@
 namespace axisgate::server {
 namespace {
 
-// A device outside of this process.
+// An OutsideLine leads to a device outside of this process.
 class OutsideLine final : public Line {
  public:
   OutsideLine(Opener opener, std::string description, HeldReader held = {})
@@ -43,7 +43,7 @@ OpenedLine open(const SerialSettings& settings) {
   return Descriptor(*port);
 }
 
-// On a thread, since an adapter that hangs may keep its driver busy for seconds.
+// Opens the port on its own thread, because an adapter that hangs may block its driver for seconds.
 std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
   return std::make_unique<OutsideLine>(opener_on_thread([settings] { return open(settings); }),
                                        fmt::format("{} at {} baud", settings.path, settings.baud),
@@ -62,7 +62,7 @@ std::unique_ptr<Line> make_tcp(const TcpSettings& settings, int baud) {
 
 struct Simulated {
   std::unique_ptr<LineMachine> device;
-  // What a person does at it, in the device's time.
+  // Performs an action of a person at the device. `now` is the device's time.
   std::function<Result<std::string>(std::string_view command, TimePoint now)> operate;
 };
 
@@ -84,7 +84,7 @@ Simulated simulate(const MillConfig& mill, const stage::Words& options, ByteLink
 
 class SimulatedLine final : public Line {
  public:
-  // `simulate` is called once, in here.
+  // `simulate` is called once, in the constructor.
   SimulatedLine(Pacing pacing, const std::function<Simulated(ByteLink&)>& simulate, Strand strand,
                 std::string description)
       : description_(std::move(description)),

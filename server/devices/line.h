@@ -1,5 +1,5 @@
-// What lies under a device's Runner: a serial port, a printer device, a serial server, or the built-in simulator at the
-// other end of a socket pair.
+// Line of a device's Runner: a serial port, a printer device, a serial server, or the built-in simulator at the other
+// end of a socket pair.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace axisgate::server {
 
-// Used by one Device, which outlives neither this nor the strand's io_context.
+// A Line is used by one Device, which must not outlive the line or the strand's io_context.
 class Line {
  public:
   virtual ~Line() = default;
@@ -24,9 +24,9 @@ class Line {
   virtual void start() = 0;
   virtual void shutdown() = 0;
 
-  // What a person does at a simulated device, and what that person sees (stage::Simulation,
-  // device/rml1/simulator/control.h). From any thread; `done` is called on the simulator's strand, or at once where the
-  // device is not simulated: invalid_request. After shutdown() it is dropped.
+  // Performs an action of a person at a simulated device and reports the result (stage::Simulation,
+  // device/rml1/simulator/control.h). `done` is called on the simulator's strand, or at once with invalid_request if
+  // the device is not simulated. After shutdown() the action is dropped. May be called from any thread.
   using OnOperated = std::function<void(const Result<std::string>& answer)>;
   virtual void operate(std::string command, OnOperated done);
 };

@@ -44,7 +44,7 @@ Mill::Mill(const DeviceConfig& device, const MillConfig& config, const JobsConfi
 
 Mill::~Mill() { spool_thread_->join(); }
 
-// What had not ended when the run before ended. A confirmation is void by then.
+// Restores jobs that had not ended when the previous run ended. Their confirmations are void.
 void Mill::restore_jobs() {
   if (record_ && record_->abort_waited()) controller_.inherit_abort();
   if (record_) controller_.inherit_surfaces(record_->surfaces());
@@ -65,7 +65,7 @@ void Mill::restore_jobs() {
   }
 }
 
-// One that was kept without its times, or is sent otherwise now.
+// Plans a job that was kept without its times, or whose settings of sending have changed.
 void Mill::plan_again(rml1::Job& job) {
   if (job.planned_for == planned_for(config_)) return;
   if (const auto planned = plan_job(spool_, name(), config_, job, {}); !planned) {
@@ -79,12 +79,12 @@ void Mill::drop_spooled(rml1::JobNumber job) {
   });
 }
 
-// By this moment the fact's times are shown.
+// Publishes a fact whose times are shown by the clock of this moment.
 void Mill::publish_fact(Fact fact, TimePoint now) {
   bus_.publish(name(), std::move(fact), to_wall(now), moment_of(now));
 }
 
-// For people who follow, in the log and in the journal.
+// Reports a job's state to watchers, the log and the journal.
 void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
   log::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
             why.empty() ? "" : ": ", why);
@@ -128,7 +128,8 @@ void Mill::keep(const rml1::Job& job) {
   boost::asio::post(*spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
 }
 
-// The strand knows how long the rest takes only roughly. The job is kept either way.
+// Plans again on the spool's thread, because the strand knows the duration of the rest only roughly. The job is kept
+// even if planning fails.
 void Mill::plan_rest(const rml1::Job& job) {
   boost::asio::post(*spool_thread_, [this, job] {
     rml1::Job planned = job;
@@ -219,7 +220,7 @@ void Mill::wind_down(std::function<void()> done) {
   });
 }
 
-// Also while a job runs on: its controller is called at least every kLook.
+// Also works while a job continues: its controller is called at least every kLook.
 void Mill::look_whether_wound_down(TimePoint now) {
   if (!wound_down_) return;
   if (controller_.is_idle()) {

@@ -1,4 +1,4 @@
-// A mill: a device that is sent jobs and never answers. Its controller, and what others may see of its state.
+// A mill is a device that receives jobs and never answers. This file has its controller and its published state.
 #pragma once
 
 #include <functional>
@@ -28,54 +28,56 @@ namespace axisgate::server {
 
 struct MillNow {
   rml1::MillLink link = rml1::MillLink::closed;
-  std::string why_closed;       // for people; empty: it is open, or was not opened yet
-  std::vector<rml1::Job> jobs;  // as MillController::jobs()
+  std::string why_closed;       // text for people; empty: the line is open, or was never opened
+  std::vector<rml1::Job> jobs;  // value of MillController::jobs()
   std::optional<rml1::RunningJob> running;
   std::optional<rml1::MeasuredPace> measured_pace;
-  Moment clock;                    // by which its times are shown
-  std::optional<rml1::Job> ended;  // the one that left the queue last
-  std::uint64_t surfaces = 0;      // MillController::surfaces()
+  Moment clock;                    // clock by which the times are shown
+  std::optional<rml1::Job> ended;  // job that left the queue last
+  std::uint64_t surfaces = 0;      // value of MillController::surfaces()
 };
 
 class Mill final : public Device, private rml1::MillEvents {
  public:
   using Controller = rml1::MillController;
 
-  // `config`, `bus`, `metrics`, `thread`, `lease_tokens` and `spool` outlive this. `record` and `journal` may be null.
+  // `config`, `bus`, `metrics`, `thread`, `lease_tokens` and `spool` must outlive the mill. `record` and `journal` may
+  // be null.
   Mill(const DeviceConfig& device, const MillConfig& config, const JobsConfig& jobs, std::unique_ptr<Line> line,
        LineThread& thread, EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
        spool::Spool& spool, std::unique_ptr<JobRecord> record, journal::Journal* journal);
   ~Mill() override;
 
-  // From any thread.
+  // These members may be called from any thread.
   std::string_view kind_name() const override { return config_.kind; }
   const MillConfig& config() const { return config_; }
   Newest<MillNow>& newest() { return newest_; }
   spool::Spool& spool() const { return spool_; }
-  // A job that came twice: it never was in the queue.
+  // Drops a job that was sent twice and never was in the queue.
   void drop_spooled(rml1::JobNumber job);
 
-  // Calls `then` once the spool has kept what became of the jobs up to now, so that a kill no longer undoes it; what
-  // the disk refuses is in the log. On the strand; `then` is called on the spool's thread, at the latest while this is
-  // destroyed.
+  // Calls `then` once the spool has kept all changes of jobs up to now, so that killing the daemon cannot undo them.
+  // Failures of the disk are logged. Call it on the strand; `then` runs on the spool's thread, at the latest while the
+  // mill is destroyed.
   void when_kept(std::function<void()> then);
 
-  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
+  // Runs the request on the device's strand. After shutdown() `too_late` is called instead. May be called from any
+  // thread.
   using Request = std::function<void(rml1::MillController&, TimePoint)>;
   void post(Request request, std::function<void()> too_late = {});
 
-  // On the strand only.
+  // Call on the strand only.
   MillNow now(TimePoint at);
 
-  // At once where nothing runs. As `at_exit` says, the job that runs is aborted, or runs on for kFinishLimit, and is
-  // aborted then; so is one that is paused.
+  // Ends at once if no job is running. Depending on `at_exit`, a running job is aborted at once or after kFinishLimit.
+  // A paused job is aborted at once.
   void wind_down(std::function<void()> done) override;
   Duration wind_down_limit() const override;
 
-  // The abort is a few dozen bytes; a line that takes none by then is closed with them.
+  // An abort has a few dozen bytes. If the line accepts none of them within this time, it is closed.
   static constexpr Duration kAbortLimit = std::chrono::seconds(3);
   static constexpr Duration kFinishLimit = std::chrono::seconds(60);
-  // A job that runs is published as often.
+  // Interval at which a running job is published.
   static constexpr Duration kPublishPause = std::chrono::milliseconds(500);
 
  private:
@@ -109,13 +111,14 @@ class Mill final : public Device, private rml1::MillEvents {
   rml1::MillController controller_;
   RepeatedStops repeated_stops_;
   bool changed_ = true;                     // since publish()
-  std::optional<stage::LinkChanged> link_;  // a line that stays closed is tried again and again
-  std::optional<rml1::Job> ended_;          // as MillNow::ended
-  std::uint64_t writes_ = 0;                // recorded, each by itself
+  std::optional<stage::LinkChanged> link_;  // connecting to a line that stays closed is tried again and again
+  std::optional<rml1::Job> ended_;          // value of MillNow::ended
+  std::uint64_t writes_ = 0;                // number of recorded writes
   TimePoint published_{};
-  TimePoint abort_at_{};              // while the daemon ends: the job has run for long enough
-  std::function<void()> wound_down_;  // empty: nobody waits
-  const std::unique_ptr<boost::asio::thread_pool> spool_thread_;  // one thread; last: its tasks use the spool
+  TimePoint abort_at_{};              // end of the time that a job may still run while the daemon ends
+  std::function<void()> wound_down_;  // empty if nobody waits
+  // One thread; last member, because its tasks use the spool.
+  const std::unique_ptr<boost::asio::thread_pool> spool_thread_;
 };
 
 }  // namespace axisgate::server

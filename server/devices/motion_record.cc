@@ -11,9 +11,9 @@
 namespace axisgate::server {
 namespace {
 
-// More different lines than that are never written between two answers.
+// More different lines are never written between two answers.
 constexpr std::size_t kLinesKept = 16;
-// Their ends may not be in the journal yet. More are never under way without an outcome.
+// Their ends may not be in the journal yet. The number of motions without an outcome is never higher.
 constexpr std::size_t kStartedKept = 16;
 constexpr std::size_t kNamesMax = 512, kLineMax = 256, kNameMax = 160;
 constexpr const char* kFirstLine = "axisgate motions 2";
@@ -34,7 +34,7 @@ unsigned bits_of(stage::AxisSet axes) {
   return bits;
 }
 
-// "STATE MOTION WHO REQUEST_ID", between tabs: neither name has one.
+// Parses "STATE MOTION WHO REQUEST_ID", separated by tabs; neither name contains a tab.
 std::optional<StartedMotion> started_in(const std::string& text) {
   std::istringstream words(text);
   std::string state, motion;
@@ -66,7 +66,7 @@ struct MotionRecord::Left {
   stage::MotionId last_motion = 0;
 };
 
-// Nothing where it is no whole text of this boot.
+// Returns nullopt if the text is incomplete or from another boot.
 std::optional<MotionRecord::Left> MotionRecord::parsed(std::string_view text, std::string_view boot) {
   std::istringstream lines{std::string(text)};
   std::string line;
@@ -113,7 +113,7 @@ MotionRecord::MotionRecord(std::unique_ptr<MappedText> file, std::string boot)
   std::optional<Left> left = parsed(file_->text(), boot_);
   if (!left) return;
   unfinished_ = std::move(left->unfinished);
-  // How they ended may not be in the journal either when this run is killed.
+  // If this run is killed, their ends may still be missing in the journal.
   started_motions_ = left->started;
   started_before_ = std::move(left->started);
   last_motion_ = left->last_motion;
@@ -134,7 +134,7 @@ void MotionRecord::note(const stage::MotionChanged& change) {
   }
   if (stage::is_outcome(motion.state)) {
     motions_.erase(motion.id);
-    // Nobody has seen its axes stop.
+    // The axes were not seen to stop.
     if (motion.state == stage::MotionState::unknown && motion.written) left_moving_[motion.id] = motion;
   } else {
     motions_.insert_or_assign(motion.id, motion);
@@ -152,8 +152,8 @@ void MotionRecord::note(const stage::BytesWritten& bytes) {
   if (something_may_move()) write();
 }
 
-// The controller has received this line, so the lines before it no longer count. It may not remember a line that it
-// refused (manual 40) ?:CMD).
+// The controller has received this line, so the lines before it no longer count. A line that was refused may not be
+// remembered by the controller (manual 40) ?:CMD).
 void MotionRecord::note(const stage::ExchangeEnded& ended) {
   using Outcome = stage::ExchangeEnded::Outcome;
   const bool taken = ended.outcome == Outcome::ok || ended.outcome == Outcome::ok_d || ended.outcome == Outcome::data;
@@ -178,7 +178,7 @@ void MotionRecord::note_started(stage::MotionId id) {
 void MotionRecord::note(const stage::LinkChanged& change) {
   if (change.link != stage::LinkState::up) return;
   serial_number_ = change.serial_number;
-  // The handshake ends when all axes are stationary.
+  // When the handshake ends, all axes are stationary.
   if (!std::exchange(left_moving_, {}).empty()) write();
 }
 

@@ -1,4 +1,4 @@
-// What moves now, kept in a file so that a run after this one knows it if this one is killed.
+// File with the motions in progress, so that the next run knows them after this run was killed.
 #pragma once
 
 #include <cstdint>
@@ -17,39 +17,39 @@
 
 namespace axisgate::server {
 
-// A motion of which a line was written, so that its start may have been.
+// A motion of which a line was written; it may therefore have been started.
 struct StartedMotion {
   stage::MotionId motion = 0;
-  stage::MotionState state = stage::MotionState::queued;  // as it was last known
-  std::string who, request_id;                            // as in stage::Motion
+  stage::MotionState state = stage::MotionState::queued;  // last known state
+  std::string who, request_id;                            // values of stage::Motion
 };
 
-// Those of this run and of runs before, oldest first: all that run now, and the newest that have ended.
+// Motions of this run and earlier runs, oldest first: all that are in progress, and the newest that have ended.
 struct StartedMotions {
   std::vector<StartedMotion> kept;
-  stage::MotionId dropped_through = 0;  // up to this number, any that is not kept may have been started, too
+  stage::MotionId dropped_through = 0;  // any motion up to this number that is not kept may have been started, too
 };
 
-// On the device's strand. Nothing waits for the disk: the file is mapped, and the kernel keeps what a killed process
-// had written. Only a crash of the machine loses it, and nothing is inherited from before a boot.
+// Runs on the device's strand. No call waits for the disk: the file is mapped, and the kernel keeps what a killed
+// process had written. Only a crash of the machine loses it, and nothing is inherited from before a boot.
 class MotionRecord {
  public:
-  // `boot` names this boot of the machine. internal, where the file cannot be made or is no regular one.
+  // `boot` names this boot of the machine. Fails with internal if the file cannot be created or is not a regular file.
   static Result<std::unique_ptr<MotionRecord>> open(const std::string& path, std::string boot);
   ~MotionRecord();
   MotionRecord(const MotionRecord&) = delete;
   MotionRecord& operator=(const MotionRecord&) = delete;
 
-  // What the run before left in the file; nothing where nothing moved, the machine has booted since, or the text is
-  // none of this class.
+  // Returns the motions that the previous run left unfinished. Returns nullopt if nothing moved, the machine has booted
+  // since, or this class did not write the text.
   const std::optional<stage::Unfinished>& unfinished() const { return unfinished_; }
 
-  // As the run before left it. Nothing: the machine has booted since, or the text is none of this class, so that any
-  // may have been started.
+  // Returns the motions that the previous run had started. Returns nullopt if the machine has booted since, or this
+  // class did not write the text: any motion may then have been started.
   const std::optional<StartedMotions>& started_before() const { return started_before_; }
 
-  // The highest number of a motion, of all runs since the machine has booted; 0: none. The journal's may be lower: what
-  // waits for its disk is lost with a killed daemon.
+  // Returns the highest number of a motion of all runs since the machine booted; 0 if there was none. The journal's
+  // number may be lower, because entries that wait for the disk are lost when the daemon is killed.
   stage::MotionId last_motion() const { return last_motion_; }
 
   void on_event(const stage::Event& event);
@@ -75,18 +75,19 @@ class MotionRecord {
 
   const std::unique_ptr<MappedText> file_;
   const std::string boot_;
-  std::optional<stage::Unfinished> unfinished_;  // until it is known what became of it
+  std::optional<stage::Unfinished> unfinished_;  // until the outcome is known
   std::optional<StartedMotions> started_before_;
   stage::MotionId last_motion_ = 0;
   std::string serial_number_;
-  std::map<stage::MotionId, stage::Motion> motions_;      // without an outcome
-  std::map<stage::MotionId, stage::Motion> left_moving_;  // that ended UNKNOWN, and were not seen to end since
+  std::map<stage::MotionId, stage::Motion> motions_;  // motions without an outcome
+  // Motions that ended UNKNOWN and whose axes were not seen to stop since.
+  std::map<stage::MotionId, stage::Motion> left_moving_;
   StartedMotions started_motions_;
-  stage::AxisSet started_;              // by a line that was not answered yet
+  stage::AxisSet started_;              // axes started by a line that has not been answered yet
   std::deque<std::string> last_lines_;  // stage::Unfinished::last_lines, newest first
 };
 
-// Of this boot of the machine; empty where the kernel does not say.
+// Returns the id of this boot of the machine; empty if the kernel does not provide it.
 std::string boot_id();
 
 }  // namespace axisgate::server

@@ -1,5 +1,5 @@
-// Folds the stops of a caller who asks again and again although nothing moves, so that a loop of stops does not
-// push the entries of others out of the history, the log or the events. Each of them is carried out all the same.
+// Folds the stops of a caller who stops again and again although nothing moves, so that a loop of stops does not push
+// the entries of others out of the history, the log or the events. Each stop is carried out nevertheless.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace axisgate::server {
 
-// Not thread safe: on the device's strand.
+// Not thread safe: runs on the device's strand.
 class RepeatedStops {
  public:
   // Longest pause between two stops of one series.
@@ -21,11 +21,11 @@ class RepeatedStops {
   // Interval at which a continuing series is reported.
   static constexpr Duration kReport = std::chrono::minutes(10);
 
-  // Returns what is to be reported: the stop itself, the count of a series, or nothing if the stop is folded.
+  // Returns the stops to report: the stop itself, the count of a series, or none if the stop is folded.
   std::vector<stage::StopRequested> add(const stage::StopRequested& stop, TimePoint now);
   // Returns the counts of series that are over.
   std::vector<stage::StopRequested> ended(TimePoint now);
-  // Reports whether stops of this caller are being folded now, so that their lines and their ends are, too.
+  // Reports whether this caller's stops are being folded, so that their lines and their ends are folded, too.
   bool folds(std::string_view who) const;
 
  private:
@@ -35,7 +35,7 @@ class RepeatedStops {
     TimePoint reported{}, last{};
     std::int64_t folded = 0;
   };
-  static constexpr std::size_t kSeriesMax = 64;  // beyond these, stops are reported one by one
+  static constexpr std::size_t kSeriesMax = 64;  // further stops are reported one by one
 
   static stage::StopRequested count_of(Series& series, TimePoint now);
 

@@ -27,7 +27,7 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-// "1:100,2:-200"
+// Returns a text such as "1:100,2:-200".
 std::string to_text(const std::map<int, std::int64_t>& coordinates) {
   std::string text;
   for (const auto& [axis, pulses] : coordinates) text += fmt::format("{}{}:{}", text.empty() ? "" : ",", axis, pulses);

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Of a text that is none of facts_of() an empty object.
+// Returns an empty object if the text was not written by facts_of().
 Json facts_in(const spool::Job& spooled) {
   Json facts = Json::parse(spooled.facts, nullptr, false);
   return facts.is_object() ? facts : Json::object();
@@ -44,7 +44,7 @@ std::optional<rml1::PlaceRange> executed_in(const Json& facts) {
   return rml1::PlaceRange{place(executed[0]), place(executed[1])};
 }
 
-// One that was kept without its plan has none.
+// Returns a part without a plan if it was kept without one.
 rml1::JobPart part_in(const Json& facts) {
   rml1::JobPart part{facts.value("tool", ""), facts.value("end", std::uint64_t{0})};
   const Json takes = facts.value("takes_ns", Json::array()), run_on = facts.value("run_on", Json::array());
@@ -84,7 +84,7 @@ std::vector<rml1::Warning> accepted_in(const Json& facts) {
   return accepted;
 }
 
-// As far as the mill may have been sent it.
+// Returns the bytes that the mill may have been sent.
 std::string_view sent_of(std::string_view body, const rml1::Job& job) {
   if (job.executed) return body.substr(0, job.executed->most.offset);
   const bool known = job.written && job.written->most >= part_begin(job);
@@ -101,8 +101,8 @@ std::optional<rml1::Origin> check_origin(const MillConfig& config, const rml1::J
   return named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
 }
 
-// Its place may not have come into the spool any more, or is that of an earlier rest: then it is not known where it
-// continues.
+// Returns PAUSED only if the place in the spool is the recorded one. The place may not have reached the spool before
+// the daemon ended, or may belong to an earlier rest; the place to continue is then unknown.
 rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
   using enum rml1::JobState;
   const bool between = last.state == tool_change || last.state == confirmed;
@@ -111,8 +111,8 @@ rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
   return between && job.part > 0 ? tool_change : paused_unknown;
 }
 
-// Bytes of the part between which what the mill has executed of it ends. What it was sent, and did not lose, is
-// executed but for what its buffer may hold.
+// Returns the range of bytes of the part within which the executed bytes end. Bytes that the mill was sent and did not
+// lose are executed, except those that its buffer may contain.
 rml1::WrittenRange executed_of(const MillConfig& config, const rml1::Job& job) {
   if (job.executed) return {job.executed->least.offset, job.executed->most.offset};
   const std::uint64_t begin = part_begin(job);

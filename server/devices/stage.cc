@@ -11,7 +11,7 @@
 namespace axisgate::server {
 namespace {
 
-// "1 STOPPED, 3 FAILED", by outcome.
+// Returns a text such as "1 STOPPED, 3 FAILED".
 std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
   std::map<stage::MotionState, int> counts;
   for (const stage::Motion& motion : motions) ++counts[motion.state];
@@ -22,7 +22,7 @@ std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
   return text;
 }
 
-// With what every device has.
+// Adds the settings that every device has.
 stage::Profile profile_of(const DeviceConfig& device, const StageConfig& config) {
   stage::Profile profile = config.profile;
   profile.name = device.name;
@@ -90,7 +90,7 @@ Duration Stage::wind_down_limit() const {
   return StageController::kStopLimit + (finishes ? StageController::kFinishLimit : Duration::zero());
 }
 
-// Closed from within the answer, so that nothing comes in between.
+// Closes the line from within the answer, so that no request comes in between.
 void Stage::on_wound_down(const stage::WindDownReport& report) {
   on_due(DeviceEvents::Due::state_at_once);
   shutdown();
@@ -99,12 +99,13 @@ void Stage::on_wound_down(const stage::WindDownReport& report) {
             report.motions.empty() ? "none" : count_by_outcome(report.motions));
 }
 
-// An event must not call back into the controller, and many come at once: what they leave to do is done once, behind
-// the call that made them; before its answer only where the caller would look and see what was.
+// An event must not call back into the controller, and many events come at once. Publishing therefore happens once,
+// after the call that caused them. With state_at_once it happens before that call's answer, because the caller may read
+// the state.
 void Stage::on_due(DeviceEvents::Due due) {
   due_ = true;
   state_due_ = state_due_ || due != DeviceEvents::Due::queues;
-  const bool made = controller_ != nullptr;  // it is not while it reports what it inherits
+  const bool made = controller_ != nullptr;  // null while the controller is being constructed
   if (due == DeviceEvents::Due::state_at_once && made) publish_due();
 }
 

@@ -1,4 +1,4 @@
-// A stage: a device whose controller moves axes. Its controller, and what others may see of its state.
+// A stage is a device whose controller moves axes. This file has its controller and its published state.
 #pragma once
 
 #include <cstdint>
@@ -23,31 +23,32 @@ class Stage final : public Device {
  public:
   using Controller = stage::StageController;
 
-  // `bus`, `metrics`, `thread` and `requests` outlive this. `record`, `stops` and `journal` may be null. With a
-  // journal, motions are numbered on from the last that it has, or the record.
+  // `bus`, `metrics`, `thread` and `requests` must outlive the stage. `record`, `stops` and `journal` may be null. If
+  // there is a journal, the numbers of motions continue after the highest in the journal and the record.
   Stage(const DeviceConfig& device, const StageConfig& config, std::unique_ptr<Line> line, LineThread& thread,
         EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
         std::unique_ptr<MotionRecord> record, std::unique_ptr<StopRecord> stops, journal::Journal* journal,
         journal::RequestMemory& requests);
 
-  // From any thread.
+  // These members may be called from any thread.
   std::string_view kind_name() const override { return kind_.name(); }
   const stage::Kind& kind() const { return kind_; }
   const stage::Profile& profile() const { return profile_; }
   Newest<stage::State>& newest_state() { return newest_state_; }
 
-  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
+  // Runs the request on the device's strand. After shutdown() `too_late` is called instead. May be called from any
+  // thread.
   using Request = std::function<void(stage::StageController&, TimePoint)>;
   void post(Request request, std::function<void()> too_late = {});
 
-  // On the strand only: from within a posted request or a callback of the controller.
+  // Call on the strand only: from within a posted request or a callback of the controller.
   std::uint64_t motion_revision(stage::MotionId motion) const { return events_.motion_revision(motion); }
   Moment motion_clock(stage::MotionId motion) const { return events_.motion_clock(motion); }
 
-  // Of the run before: MotionRecord::started_before(). Nothing, where nothing is known of it. Before start().
+  // Returns MotionRecord::started_before(); nullopt if nothing is known of the previous run. Call before start().
   std::optional<StartedMotions> started_before() const;
 
-  // `done` comes when every motion has its outcome and the line is closed: StageController::wind_down().
+  // Calls `done` when every motion has its outcome and the line is closed; see StageController::wind_down().
   void wind_down(std::function<void()> done) override;
   Duration wind_down_limit() const override;
 

@@ -17,7 +17,7 @@ using std::chrono::microseconds;
 constexpr std::size_t kCallerMax = 160;
 constexpr int kFormat = 1;
 
-// Times are of the calendar: a boot of the machine begins the other clock again.
+// Writes calendar time, because the monotonic clock begins again when the machine boots.
 std::int64_t to_file(TimePoint time) {
   return std::chrono::duration_cast<microseconds>(to_wall(time).time_since_epoch()).count();
 }

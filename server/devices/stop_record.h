@@ -1,5 +1,5 @@
-// The open stops of a stage and the latch of its emergency stop, kept in a file for the run after this one: also if
-// this one is killed, and over a boot of the machine.
+// File with the open stops of a stage and the latch of its emergency stop, for the next run: valid after this run was
+// killed, and after a boot of the machine.
 #pragma once
 
 #include <condition_variable>
@@ -17,11 +17,11 @@
 
 namespace axisgate::server {
 
-// On the device's strand. Nothing there waits for the disk: a thread of its own syncs the file, so only a power cut
-// directly after a stop loses it.
+// Runs on the device's strand. No call waits for the disk: another thread syncs the file, so only a power cut directly
+// after a stop loses it.
 class StopRecord {
  public:
-  // internal, where the file cannot be made or is no regular one.
+  // Fails with internal if the file cannot be created or is not a regular file.
   static Result<std::unique_ptr<StopRecord>> open(const std::string& path);
   ~StopRecord();
   StopRecord(const StopRecord&) = delete;

@@ -7,7 +7,7 @@
 namespace axisgate::server {
 namespace {
 
-// 0: it is about no motion's state.
+// Returns the motion whose state the fact describes; 0 if there is none.
 stage::MotionId motion_of(const FactRecord& record) {
   const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
   return change == nullptr ? 0 : change->motion.id;
@@ -22,7 +22,7 @@ EventBus::EventBus(Executor executor, std::string run, FactsBefore before, Keep 
 }
 
 std::uint64_t EventBus::publish(std::string device, Fact fact, WallTime time, Moment clock) {
-  // The journal's file has microseconds: the time is the same after a restart.
+  // The journal's file stores microseconds, so the time is the same after a restart.
   const auto rounded = std::chrono::floor<std::chrono::microseconds>(time);
   auto record = std::make_shared<FactRecord>(FactRecord{0, std::move(device), rounded, std::move(fact), clock, run_});
   std::uint64_t revision = 0;

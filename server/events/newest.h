@@ -1,4 +1,4 @@
-// The newest value of something. Older ones are forgotten: a slow reader sees fewer, never later ones.
+// Newest value of something. Older values are dropped: a slow reader receives fewer values, but no delayed ones.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Newest {
 
   struct Snapshot {
     std::shared_ptr<const Value> value;  // never null
-    std::uint64_t version = 0;           // counts from 1; 0 before the first
+    std::uint64_t version = 0;           // from 1; 0 before the first publish()
   };
 
   void publish(Value value) {

@@ -20,7 +20,7 @@ class RefusalLog::Windows {
     for (const auto& [source, window] : open_) say_left_out(source, window);
   }
 
-  // Whose window has begun with this line, if one has.
+  // Logs or counts a line. Returns the source whose window begins with this line, or null.
   const std::string* note(const std::string& source, const std::string& line) {
     const std::lock_guard lock(mutex_);
     const bool distinguished = open_.contains(source) || open_.size() < kSources;

@@ -1,4 +1,5 @@
-// The log's lines on what was refused: bounded for each source, so that none can fill the disk or hide what others do.
+// Log lines about refusals, limited for each source, so that no source can fill the disk or hide the refusals of
+// others.
 #pragma once
 
 #include <chrono>
@@ -14,21 +15,22 @@ namespace axisgate::server {
 // Thread safe.
 class RefusalLog {
  public:
-  // Of one source, in the 10 s from its first line; how many more there were is one line when they are over.
+  // Limit for one source: kLines within kWindow from its first line. The number of further lines is logged when the
+  // window ends.
   static constexpr Duration kWindow = std::chrono::seconds(10);
   static constexpr int kLines = 5;
-  // So many are distinguished at a time. Those beyond have their lines together, as "other sources".
+  // Number of sources logged separately; further ones share the label "other sources".
   static constexpr std::size_t kSources = 256;
 
-  // `later` calls the task once when that time has passed, from any thread; perhaps after this has gone.
+  // Calls the task once after that time, from any thread, possibly after the RefusalLog is destroyed.
   using Later = std::function<void(Duration, std::function<void()>)>;
   explicit RefusalLog(Later later);
-  // Says what is still unsaid.
+  // Logs the numbers of lines left out that were not logged yet.
   ~RefusalLog();
   RefusalLog(const RefusalLog&) = delete;
   RefusalLog& operator=(const RefusalLog&) = delete;
 
-  // `source` is a short text that a caller cannot choose: "uid 1000", "192.168.0.7". `line` is fit for a log.
+  // `source` is a short text that a caller cannot choose: "uid 1000", "192.168.0.7". `line` must be suitable for a log.
   void note(const std::string& source, const std::string& line);
 
  private:

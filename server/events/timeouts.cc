@@ -13,7 +13,7 @@ namespace axisgate::server {
 
 class Timeouts::Queue : public std::enable_shared_from_this<Queue> {
  public:
-  using Key = std::pair<TimePoint, std::uint64_t>;  // when; the number distinguishes those of one time
+  using Key = std::pair<TimePoint, std::uint64_t>;  // due time; the number distinguishes tasks of the same time
 
   explicit Queue(boost::asio::io_context& context) : timer_(context) {}
 
@@ -25,7 +25,7 @@ class Timeouts::Queue : public std::enable_shared_from_this<Queue> {
     return key;
   }
 
-  // What a task holds goes without the lock: it may drop others.
+  // Destroys the task without the lock, because the objects that it owns may drop other tasks.
   void drop(const Key& key) {
     Tasks::node_type task;
     const std::lock_guard lock(mutex_);
@@ -42,7 +42,7 @@ class Timeouts::Queue : public std::enable_shared_from_this<Queue> {
  private:
   using Tasks = std::map<Key, std::function<void()>>;
 
-  // A timer that stands earlier is left: when it fires, this is asked again.
+  // Keeps a timer that fires earlier: arm() runs again after it.
   void arm() {
     if (tasks_.empty() || (armed_ && *armed_ <= tasks_.begin()->first.first)) return;
     armed_ = tasks_.begin()->first.first;

@@ -1,5 +1,5 @@
-// Tasks that are due at a time to come. All share one timer, so a task that is dropped before its time costs neither a
-// timer nor a wake-up: most are.
+// Tasks that are due later. All share one timer, so a task that is dropped before its time, like most of them, costs
+// neither a timer nor a wake-up.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace axisgate::server {
 
-// Drops its task when it goes. The task may be under way by then.
+// A Timeout drops its task when it is destroyed. The task may be running by then.
 class Timeout {
  public:
   virtual ~Timeout() = default;
@@ -20,14 +20,14 @@ class Timeout {
 class Timeouts {
  public:
   explicit Timeouts(boost::asio::io_context& context);
-  // Tasks that are not due yet are dropped.
+  // Drops the tasks that are not due yet.
   ~Timeouts();
   Timeouts(const Timeouts&) = delete;
   Timeouts& operator=(const Timeouts&) = delete;
 
-  // Calls `task` once in the io_context when `wait` is over.
+  // Calls `task` once in the io_context after `wait`.
   void after(Duration wait, std::function<void()> task);
-  // The same, unless what it returns goes before.
+  // Does the same, unless the returned object is destroyed first.
   [[nodiscard]] std::unique_ptr<Timeout> unless_dropped(Duration wait, std::function<void()> task);
 
  private:

@@ -20,7 +20,7 @@ class WakeUps::Sleeper {
   }
 
  private:
-  std::recursive_mutex mutex_;  // a reader may leave from within its own wake-up
+  std::recursive_mutex mutex_;  // a reader may unsubscribe within its own wake-up
   bool awake_ = true;
   const std::function<void()> wake_;
 };
@@ -64,7 +64,7 @@ void WakeUps::wake_all() {
 }
 
 void WakeUps::run(Shared& shared) {
-  // Cleared before the list is read: whatever becomes new from here on gets another round.
+  // Cleared before the list is read, so that later changes cause another round.
   shared.due = false;
   std::vector<std::shared_ptr<Sleeper>> sleepers;
   {

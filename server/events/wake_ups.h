@@ -1,4 +1,4 @@
-// Notifies waiting readers that there is something new, on another thread than the one that made it.
+// Notifications of waiting readers about changes, on another thread than the one that made the change.
 #pragma once
 
 #include <atomic>
@@ -9,17 +9,17 @@
 
 namespace axisgate::server {
 
-// Runs a task later, on a thread that is not the caller's; tasks run one after the other.
+// An Executor runs a task later, on a thread that is not the caller's; tasks run one after the other.
 using Executor = std::function<void(std::function<void()>)>;
 
-// Thread safe. Any number of wake_all() calls before the executor comes round cost one round of wake-ups, so that a
-// thousand readers cost the device's strand one task; and none costs it nothing.
+// Thread safe. Any number of wake_all() calls before the executor runs cause one round of wake-ups. So a thousand
+// readers cost the device's strand one task, and no readers cost it nothing.
 class WakeUps {
  public:
   explicit WakeUps(Executor executor);
 
-  // While it lives, `wake` is called on the executor after each wake_all(). The destructor waits for a call under way
-  // unless it is that call, and none comes after it.
+  // Calls `wake` on the executor after each wake_all() while the Subscription exists. The destructor waits for a call
+  // in progress, unless it runs within that call, and no call comes after it.
   class Subscription {
    public:
     virtual ~Subscription() = default;

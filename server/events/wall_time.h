@@ -1,4 +1,4 @@
-// Where the machines' monotonic time meets the calendar.
+// Conversion between monotonic time and the calendar.
 #pragma once
 
 #include <chrono>
@@ -10,15 +10,15 @@ namespace axisgate::server {
 
 using WallTime = std::chrono::system_clock::time_point;
 
-// Between the two clocks as they stand now: a clock that was set in between shifts old times along. The epoch of the
-// monotonic clock means "never" and stays the calendar's epoch.
+// Converts with the present difference of the two clocks: if a clock was set in between, old times shift with it. The
+// epoch of the monotonic clock means "never" and becomes the calendar's epoch.
 inline WallTime to_wall(TimePoint time) {
   if (time == TimePoint{}) return {};
   return std::chrono::system_clock::now() + std::chrono::duration_cast<WallTime::duration>(time - monotonic_now());
 }
 
-// One moment on both clocks. By it all times of one thing keep their distances, and are the same whenever they are
-// read.
+// A Moment is one moment on both clocks. Times that are converted by the same Moment keep their distances, and are
+// always converted to the same values.
 struct Moment {
   TimePoint monotonic{};
   WallTime wall{};
@@ -29,7 +29,7 @@ struct Moment {
 
 inline Moment moment_of(TimePoint time) { return {time, to_wall(time)}; }
 
-// Whole seconds, for what outlives the daemon.
+// Returns whole seconds, for data that outlives the daemon.
 inline std::chrono::sys_seconds calendar_now() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
 }

@@ -1,4 +1,4 @@
-// How much a connection, and all connections of one source together, may ask of the daemon a second.
+// Rate limits of one connection, and of all connections of one source together.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@ namespace axisgate::front {
 
 enum class Cost {
   stream,        // a call that begins
-  header_bytes,  // of its headers, as they were sent, or as a list has them, if that is more
-  reset,         // a call that its caller breaks off
-  control,       // PING, WINDOW_UPDATE, PRIORITY, empty DATA, acknowledgements, unknown frames, those of no call
+  header_bytes,  // of a call's headers, as sent or as counted in a header list, whichever is more
+  reset,         // a call that its caller cancels
+  control,       // PING, WINDOW_UPDATE, PRIORITY, empty DATA, acknowledgements, unknown frames, frames of no call
   settings,      // SETTINGS
-  refusal,       // a call that was refused for want of a right, or that is against the rules of HTTP/2
-  unpacked,      // bytes of messages that were compressed
+  refusal,       // a call that was refused for lack of a right, or that breaks the rules of HTTP/2
+  unpacked,      // bytes of unpacked messages
 };
 inline constexpr std::size_t kCosts = 7;
 
-// Filled by `per_second` up to `burst`.
+// Rate of one token bucket, which fills by `per_second` up to `burst`.
 struct Rate {
   double per_second = 0;
   double burst = 0;
@@ -34,11 +34,11 @@ class TokenBucket {
  public:
   TokenBucket(Rate rate, TimePoint now) : rate_(rate), tokens_(rate.burst), at_(now) {}
 
-  // Takes them, also where they are not there yet.
+  // Takes the tokens; the bucket may go into debt.
   void take(double tokens, TimePoint now);
-  // Takes them where they are there.
+  // Takes the tokens only if the bucket has them; reports whether it had.
   bool take_if_there(double tokens, TimePoint now);
-  // Until what was taken is there: zero, where it is.
+  // Time until the debt is paid; zero without a debt.
   Duration debt() const;
   bool full(TimePoint now);
 
@@ -50,12 +50,12 @@ class TokenBucket {
   TimePoint at_;
 };
 
-// One bucket for each cost.
+// A Budget has one bucket for each cost.
 class Budget {
  public:
   Budget(const Rates& rates, TimePoint now);
 
-  Duration take(Cost cost, double tokens, TimePoint now);  // the debt afterwards
+  Duration take(Cost cost, double tokens, TimePoint now);  // returns the debt after taking
   bool take_if_there(Cost cost, double tokens, TimePoint now);
   bool full(TimePoint now);
 
@@ -63,7 +63,7 @@ class Budget {
   std::array<TokenBucket, kCosts> buckets_;
 };
 
-// A user or an address, over all its connections.
+// A Source is a user or an address, over all its connections.
 struct Source {
   Budget frames;
   TokenBucket connections, handshakes;  // new ones
@@ -80,7 +80,7 @@ class Sources {
   explicit Sources(const SourceRates& rates) : rates_(rates) {}
 
   std::shared_ptr<Source> of(const std::string& source, TimePoint now);
-  // Those that nobody has any more, and that are full.
+  // Removes the sources that nobody uses and whose buckets are full.
   void forget_idle(TimePoint now);
   std::size_t size() const { return sources_.size(); }
 

@@ -1,4 +1,4 @@
-// Why the front closes a connection on its own account.
+// Reasons for which the front itself closes a connection.
 #pragma once
 
 #include <array>
@@ -7,13 +7,13 @@
 
 namespace axisgate::front {
 
-// The set is closed: each is a label on the metrics page.
+// The set is closed: each value is a label on the metrics page.
 enum class Cause {
   handshake_failed,  // TLS: no trusted certificate, another protocol, or not finished in time
-  no_call,           // nobody was let in within FrontLimits::silence
-  frame_unfinished,  // a frame, or headers, by FrontLimits::pace
+  no_call,           // no call was let in within FrontLimits::silence
+  frame_unfinished,  // a frame or headers came more slowly than FrontLimits::pace
   over_budget,       // more of something than FrontLimits allows
-  protocol_error,    // no HTTP/2, or frames against RFC 9113
+  protocol_error,    // not HTTP/2, or frames against RFC 9113
 };
 inline constexpr std::array kCauses = {Cause::handshake_failed, Cause::no_call, Cause::frame_unfinished,
                                        Cause::over_budget, Cause::protocol_error};
@@ -36,7 +36,7 @@ constexpr std::string_view name(Cause cause) {
 
 struct Closing {
   Cause cause = Cause::protocol_error;
-  std::string text{};  // for people; nothing of it is the client's
+  std::string text{};  // for people; contains no text from the client
 };
 
 }  // namespace axisgate::front

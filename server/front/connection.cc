@@ -11,13 +11,13 @@ namespace {
 
 namespace asio = boost::asio;
 
-// A client that does not take what it is sent does not get its farewell either.
+// Time that a client has to take the last bytes before its connection is closed.
 constexpr Duration kFarewell = std::chrono::seconds(1);
 
-// A portion is judged in one go. It holds a few dozen calls, which delay a stop of others by about a millisecond.
+// Bytes that are judged in one go. They contain a few dozen calls, which delay a stop of others by about a millisecond.
 constexpr std::size_t kPortion = 1024;
 
-// A connection that waits keeps no buffer: there may be thousands.
+// A waiting connection keeps no buffer, because there may be thousands of them.
 void free(std::string& buffer) { std::string().swap(buffer); }
 
 }  // namespace
@@ -65,7 +65,7 @@ void Connection::pull(StreamId stream) {
   move_on();
 }
 
-// Starts whatever can be started now.
+// Starts every operation that can start now.
 void Connection::move_on() {
   if (closed_) return;
   if (conversation_->uses_grpc() && !grpc_.is_open()) connect_to_grpc();
@@ -97,8 +97,8 @@ void Connection::read_client() {
   });
 }
 
-// A client that sends much at once is judged in portions: between them it is the turn of others. What has been read is
-// judged to its end, whatever the budget: who sends so much at once that its debt is long is to be closed.
+// Bytes that come at once are judged in portions, so that other connections get their turn in between. All bytes that
+// were read are judged, whatever the budget: a client whose debt becomes long this way must be closed.
 void Connection::feed_later() {
   reads_client_ = true;
   asio::post(around_.strand, [this, self = shared_from_this()] {
@@ -169,7 +169,7 @@ void Connection::take_from_grpc() {
   if (error == asio::error::would_block) return;
   if (!error) return conversation_->from_grpc({bytes.data(), size});
   grpc_left_ = true;
-  over_since_ = monotonic_now();  // a client that does not take the rest is not waited for
+  over_since_ = monotonic_now();  // so that a client that does not take the rest is closed after kFarewell
   conversation_->grpc_left();
 }
 
@@ -179,7 +179,7 @@ void Connection::write_grpc() {
   if (to_grpc_.empty()) return;
   writes_grpc_ = true;
   asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
-    if (error) return;  // gRPC has closed its end: what it said before is read still, and nothing more is written
+    if (error) return;  // gRPC has closed its end: its earlier bytes are still read, but no more are written
     writes_grpc_ = false;
     free(to_grpc_);
     move_on();

@@ -1,4 +1,4 @@
-// The I/O of one client's connection: its bytes through a Conversation, and to gRPC where they belong there.
+// The I/O of one client's connection: its bytes through a Conversation, and to gRPC if a call is gRPC's.
 #pragma once
 
 #include <functional>
@@ -16,30 +16,30 @@
 
 namespace axisgate::front {
 
-// On the front's strand. It lives as long as an operation of it is under way, or the front holds it.
+// Used on the front's strand. A Connection lives as long as one of its operations is pending or the front keeps it.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  // What it needs of the front.
+  // Parts of the front that a connection uses.
   struct Surroundings {
     Strand strand;
-    std::shared_ptr<Inbox> inbox;  // to that strand
+    std::shared_ptr<Inbox> inbox;  // leads to that strand
     Conversation::Shared shared;
-    std::function<void(Descriptor)> to_grpc;  // a connection of its own, not blocking
-    // Once: it is closed; with why, where this side closed it for a cause.
+    std::function<void(Descriptor)> to_grpc;  // receives a separate non-blocking connection for gRPC
+    // Called once when the connection is closed, with the reason if this side closed it for a cause.
     std::function<void(const Connection&, const std::optional<Closing>&)> ended;
   };
 
-  // `around` outlives it.
+  // `around` must outlive this object.
   Connection(const Surroundings& around, Peer peer, bool stops_only);
 
   void start(std::unique_ptr<Wire> wire);
-  // A wire whose handshake is still to come; start() when it is over.
+  // Keeps a wire whose handshake is still to come.
   void hold(std::unique_ptr<Wire> wire) { wire_ = std::move(wire); }
   void handshake_over(std::optional<std::string> certificate);
 
-  // The daemon ends, as Conversation::announce_end().
+  // Announces the end of the daemon like Conversation::announce_end().
   void announce_end();
-  // Now and then: what has taken too long is ended.
+  // Called periodically; ends operations that have taken too long.
   void check(TimePoint now);
   void close(const std::optional<Closing>& why = {});
 
@@ -73,9 +73,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::local::stream_protocol::socket grpc_;
   boost::asio::steady_timer budget_timer_;
   std::string from_client_;
-  std::string_view unfed_;           // of that
+  std::string_view unfed_;           // part of from_client_
   std::string to_client_, to_grpc_;  // being written
-  // An operation of each kind is under way.
+  // Pending operations of each kind.
   bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;
   bool grpc_left_ = false;
   bool closed_ = false;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPrefaceBytes = 24, kFrameHeadBytes = 9;  // RFC 9113, 3.4 and 4.1
 constexpr std::uint32_t kStreamWindow = 64 << 10;
-constexpr std::int32_t kConnectionWindow = 8 << 20;  // so that no few requests that wait hold others back
+constexpr std::int32_t kConnectionWindow = 8 << 20;  // large enough that a few waiting requests do not block others
 constexpr Duration kSoon = std::chrono::seconds(1);
 
 SessionTerms terms_of(const FrontLimits& limits) {
@@ -29,7 +29,8 @@ bool has_flag(const nghttp2_frame_hd& frame, nghttp2_flag flag) { return (frame.
 
 bool is_own(const Header& header) { return header.name == kCallerHeader || header.name == kSourceHeader; }
 
-// Returns the answer to a request that is no call of gRPC: its protocol over HTTP/2 requires POST and its content type.
+// Returns the answer to a request that is not a gRPC call: gRPC's protocol over HTTP/2 requires POST and its content
+// type.
 std::optional<Headers> not_grpc(const Headers& headers) {
   if (find(headers, ":method") != "POST") return Headers{{":status", "405"}, {"allow", "POST"}};
   const std::string_view type = find(headers, "content-type").value_or("");
@@ -47,7 +48,7 @@ Reply too_much_metadata(const FrontLimits& limits) {
                                  limits.header_bytes, limits.header_fields)};
 }
 
-// Only compressed messages are refused so: others wait in the client, as its window is not widened.
+// Only compressed messages are refused in this way. Other messages wait in the client, whose window does not grow.
 Reply too_much_waits() {
   return {.code = kResourceExhausted,
           .message = "the messages of this request are much longer unpacked, and come faster than they are taken",
@@ -81,11 +82,11 @@ void Conversation::from_client(std::string_view bytes, TimePoint now) {
   pace_.came(bytes.size());
   unshown_ += static_cast<std::int64_t>(bytes.size());
   if (client_.feed(bytes)) spend_for_unshown();
-  if (block_ends_ && unshown_ >= 0) in_block_ = false;  // the library is silent about a block that it ignores
+  if (block_ends_ && unshown_ >= 0) in_block_ = false;  // the library does not report a block that it ignores
   if (!was_within) pace_.begin(now);
 }
 
-// In the head of a frame, or in the headers of a call.
+// Reports whether the head of a frame or the headers of a call are incomplete.
 bool Conversation::is_within() const { return in_block_ || (unshown_ > 0 && !strays_); }
 
 void Conversation::from_grpc(std::string_view bytes) {
@@ -101,7 +102,7 @@ bool Conversation::end(Cause cause, std::uint32_t error, const char* why) {
 
 void Conversation::failed(std::uint32_t error, std::string_view why) {
   over_ = true;
-  // A client that takes its leave may say it wrongly: grpc-go names a stream of its own as the last one.
+  // A client that disconnects with GOAWAY may name a wrong stream: grpc-go names one of its own as the last stream.
   if (client_leaves_) return;
   fault_ = Closing{error == NGHTTP2_ENHANCE_YOUR_CALM ? Cause::over_budget : Cause::protocol_error, std::string(why)};
 }
@@ -147,7 +148,7 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
       return !may_be_empty || has_flag(frame, NGHTTP2_FLAG_END_STREAM) || spend(Cost::control, 1);
     }
     case NGHTTP2_PRIORITY:
-      // The library ignores them all; RFC 9113, 6.3 does not allow this one.
+      // The library ignores all PRIORITY frames; RFC 9113, 6.3 does not allow this one.
       if (frame.stream_id == 0) return end(Cause::protocol_error, NGHTTP2_PROTOCOL_ERROR, "PRIORITY of no stream");
       return spend(Cost::control, 1);
     case NGHTTP2_SETTINGS:
@@ -166,15 +167,16 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
   }
 }
 
-// Frames of no call cost nothing as far as an honest client may have sent them before it learned that its call is over.
+// Charges frames of no call. They are free as long as an honest client may have sent them before it learned that its
+// call is over.
 bool Conversation::spend_for_nobodys(std::size_t bytes, std::size_t frames) {
   if (free_ < bytes) return spend(Cost::control, static_cast<double>(frames));
   free_ -= bytes;
   return true;
 }
 
-// The library shows no DATA of streams that have gone. As many frames as there can be are in these bytes; fewer than
-// the head of one may be the beginning of the next.
+// The library does not report DATA of closed streams. Charges as many frames as these bytes can contain; fewer bytes
+// than the head of a frame may be the beginning of the next frame.
 void Conversation::spend_for_unshown() {
   if (over_ || unshown_ < kFrameHeadBytes) return;
   const auto bytes = static_cast<std::size_t>(std::exchange(unshown_, 0));
@@ -248,8 +250,8 @@ void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
 
 void Conversation::forward(HeaderBlock block, const std::string& path) {
   if (!grpc_) grpc_.emplace(client_, shared_.held);
-  // A client's own are dropped; messages reach gRPC as they were before compression. Nobody reads user-agent, and gRPC
-  // would keep it as long as the call.
+  // Drops the client's own headers with reserved names. Messages reach gRPC uncompressed, so grpc-encoding and
+  // content-length go as well. user-agent is not used, and gRPC would keep it as long as the call.
   std::erase_if(block.headers, [](const Header& one) {
     return is_own(one) || one.name == "grpc-encoding" || one.name == "content-length" || one.name == "user-agent";
   });
@@ -320,8 +322,8 @@ void Conversation::stream_closed(StreamId stream, std::uint32_t, std::size_t uns
   calls_.erase(call);
 }
 
-// Clients acknowledge what they were sent, on its stream and on the connection: that costs them nothing, or a thousand
-// streams of events would be a flood.
+// Clients acknowledge what they receive with WINDOW_UPDATE, once for the stream and once for the connection. These are
+// free; otherwise, the acknowledgements of a thousand event streams would count as a flood.
 void Conversation::sent(StreamId stream, std::size_t bytes) {
   constexpr int kAcknowledgements = 2, kMost = 100'000;
   acknowledgements_due_ = std::min(acknowledgements_due_ + kAcknowledgements, kMost);

@@ -1,5 +1,5 @@
-// One client's calls, from its first byte: passes on to gRPC what may pass, answers the rest, and says when the
-// connection has cost too much. No I/O, no threads: bytes in, bytes out.
+// The calls of one client, from the first byte of the connection: forwards calls to gRPC, answers the others, and ends
+// the connection if it costs too much. No I/O, no threads: bytes in, bytes out.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ namespace axisgate::front {
 
 class Conversation final : private Http2Session::Events {
  public:
-  // All conversations share these, which outlive them.
+  // Objects shared by all conversations, which they must outlive.
   struct Shared {
     Desk& desk;
     const FrontLimits& limits;
@@ -39,17 +39,17 @@ class Conversation final : private Http2Session::Events {
 
   void from_client(std::string_view bytes, TimePoint now);
   void from_grpc(std::string_view bytes);
-  // After on_answer: the desk has more for this call.
+  // Fetches more of the answer for this call, after on_answer.
   void pull(StreamId stream) { own_calls_.pull(stream); }
-  // Ends what stalls. `reads`: the client is being read, so bytes that do not come were not sent.
+  // Ends calls that stall. `reads`: the client is being read, so missing bytes were not sent.
   void check(TimePoint now, bool reads);
 
-  // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
+  // Called if gRPC cannot be reached: refuses its calls and, from now on, serves only stops.
   void grpc_failed();
-  // The daemon ends: the client learns it before the ends of its calls, or it would make them again here. Calls that
-  // still come are refused with REFUSED_STREAM, so that a client may make them elsewhere.
+  // Announces the end of the daemon to the client before its calls end, so that the client does not repeat them here.
+  // Later calls are refused with REFUSED_STREAM, so that a client may make them elsewhere.
   void announce_end();
-  // gRPC has closed its side: the connection is over when the answers that are due have been written.
+  // Called when gRPC has closed its side: the connection is over when the remaining answers have been written.
   void grpc_left();
 
   // Returns the bytes to be written next, each once.
@@ -57,16 +57,16 @@ class Conversation final : private Http2Session::Events {
   std::string take_to_grpc() { return grpc_ ? grpc_->take_to_grpc(kPiece) : std::string(); }
   bool has_for_client() const { return client_.has_more(); }
   bool has_for_grpc() const { return grpc_ && grpc_->has_for_grpc(); }
-  // The client leaves untaken what it caused: nothing more is read from it.
+  // Reports that too many frames wait for the client; no more bytes are then read from it.
   bool full() const { return client_.waiting() > kWaiting; }
 
   bool uses_grpc() const { return grpc_.has_value(); }
-  // Nothing more is read, and when the rest is written the connection is closed. Once it is over it stays so, whatever
-  // answers still come.
+  // Reports that no more bytes are to be read and that the connection closes when the rest has been written. Stays
+  // true, whatever answers still come.
   bool over() { return over_ = over_ || client_.is_over(); }
-  // Why, where this side ended it for a cause.
+  // Reason of the end, if this side ended the connection for a cause.
   const std::optional<Closing>& fault() const { return fault_; }
-  // Nothing more is to be read from the client before then.
+  // Earliest time at which the client may be read again.
   TimePoint not_before() const { return spending_.not_before(); }
   bool stops_only() const { return stops_only_; }
   bool admitted() const { return spending_.admitted(); }  // a call was let in
@@ -76,12 +76,12 @@ class Conversation final : private Http2Session::Events {
   static constexpr std::size_t kPiece = 64 << 10;
   static constexpr std::size_t kWaiting = 1'000;  // frames
 
-  // A call that was let in, until its stream closes.
+  // State of an admitted call, until its stream closes.
   struct Call {
     std::shared_ptr<void> place;
     bool uncounted = false;
-    bool forwarded = false;                  // gRPC's
-    std::unique_ptr<RequestBody> request{};  // until it is whole: of a thousand streams none is left
+    bool forwarded = false;                  // to gRPC
+    std::unique_ptr<RequestBody> request{};  // null once the request is whole, to save memory
     Pace pace{};
   };
 
@@ -92,7 +92,7 @@ class Conversation final : private Http2Session::Events {
   bool stream_ended(StreamId stream) override;
   void stream_closed(StreamId stream, std::uint32_t error, std::size_t unsent) override;
   void sent(StreamId stream, std::size_t bytes) override;
-  void going_away(StreamId, std::uint32_t) override {}  // what is open continues
+  void going_away(StreamId, std::uint32_t) override {}  // open streams continue
   void failed(std::uint32_t error, std::string_view why) override;
 
   bool spend(Cost cost, double tokens);
@@ -118,25 +118,25 @@ class Conversation final : private Http2Session::Events {
   TimePoint now_;
   bool over_ = false;
   bool daemon_ends_ = false;
-  bool client_leaves_ = false;  // of the bytes that came last, its GOAWAY was the last frame
+  bool client_leaves_ = false;  // GOAWAY was the last frame in the newest bytes
   std::optional<Closing> fault_;
 
   std::map<StreamId, Call> calls_;
   Http2Session client_;
   OwnCalls own_calls_;
-  std::optional<GrpcSide> grpc_;  // from the first call that is gRPC's
+  std::optional<GrpcSide> grpc_;  // exists from the first call that is gRPC's
 
   StreamId last_stream_ = 0;
-  bool in_block_ = false;          // headers of a call have begun, and are not whole
-  std::size_t block_bytes_ = 0;    // of them, as they were sent
-  bool block_ends_ = false;        // with the frame that came last
-  std::size_t continuations_ = 0;  // frames of them beyond the first
-  Pace pace_;                      // of them
-  std::int64_t unshown_;           // bytes that came, less those of the preface and of frames that have begun
-  bool strays_ = false;            // frames that the library does not show: where the next one begins is not known
-  int settings_due_ = 1;           // acknowledgements of SETTINGS
-  int acknowledgements_due_ = 0;   // WINDOW_UPDATEs for what was sent
-  std::size_t free_ = 0;           // bytes that may still come for calls that were refused
+  bool in_block_ = false;          // headers of a call are incomplete
+  std::size_t block_bytes_ = 0;    // of these headers, as sent
+  bool block_ends_ = false;        // the newest frame ends the headers
+  std::size_t continuations_ = 0;  // frames of these headers beyond the first
+  Pace pace_;                      // of these headers, or of a frame's head
+  std::int64_t unshown_;           // bytes received, less those of the preface and of frames that have begun
+  bool strays_ = false;           // frames that the library does not report: the beginning of the next frame is unknown
+  int settings_due_ = 1;          // acknowledgements of SETTINGS
+  int acknowledgements_due_ = 0;  // WINDOW_UPDATEs for bytes sent
+  std::size_t free_ = 0;          // bytes that may still come for refused calls
 };
 
 }  // namespace axisgate::front

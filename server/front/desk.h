@@ -1,5 +1,5 @@
-// Who decides about a call by its headers, and answers those that gRPC shall not see. The front itself knows no method
-// and no caller.
+// Decides about a call by its headers, and answers the calls that must not pass through gRPC. The front itself knows
+// neither methods nor callers.
 #pragma once
 
 #include <functional>
@@ -14,55 +14,56 @@
 
 namespace axisgate::front {
 
-// The headers that name the caller, and Peer::source, to gRPC. A client's own are dropped.
+// Headers that pass the caller and Peer::source on to gRPC. The client's own headers of these names are dropped.
 inline constexpr const char* kCallerHeader = "axisgate-caller";
 inline constexpr const char* kSourceHeader = "axisgate-source";
 
-// Who is at the other end of a connection, as far as that is known without a token.
+// A Peer is the other end of a connection, as far as it is known without a token.
 struct Peer {
   std::string who{};         // "unix alice", "cert alice", "tcp 127.0.0.1:39482"
-  std::string source{};      // by whose budget it counts: "uid 1000", an address, a certificate
-  bool needs_token = false;  // without a token nobody may call so
+  std::string source{};      // owner of the budget: "uid 1000", an address, a certificate
+  bool needs_token = false;  // calls without a token are refused
 };
 
-// The front gives these of gRPC's codes by itself.
+// gRPC's codes that the front itself returns.
 inline constexpr int kInvalidArgument = 3, kDeadlineExceeded = 4, kResourceExhausted = 8, kUnimplemented = 12;
 
-// What is sent to a caller: a message, the end, or both. A call with one answer has one of these.
+// A Reply is one part of an answer: a message, the end, or both. A call with one answer has one Reply.
 struct Reply {
   int code = 0;                           // gRPC's; 0 is OK
-  std::string message{};                  // for people, where it is not OK
-  std::string details{};                  // of grpc-status-details-bin; empty: none
+  std::string message{};                  // for people; empty if the code is OK
+  std::string details{};                  // value of grpc-status-details-bin; empty: none
   std::optional<std::string> body{};      // a message of the answer
-  bool last = true;                       // the call ends with it; otherwise its code says nothing
-  std::optional<Duration> retry_after{};  // where it was refused for a while only
+  bool last = true;                       // ends the call; otherwise `code` has no meaning
+  std::optional<Duration> retry_after{};  // set if the call was refused only for a while
 };
 
-// The answer to one call, on the front's thread. It goes when it has ended, or when its caller has left it.
+// An Answer belongs to one call, on the front's thread. It is destroyed when it has ended or its caller has left.
 class Answer {
  public:
   virtual ~Answer() = default;
-  // What has come since the last time, in order.
+  // Returns the replies that have come since the last call, in order.
   virtual std::vector<Reply> take() = 0;
 };
 
 struct Verdict {
   enum class What {
-    forward,  // gRPC's
-    answer,   // Desk::answer()
+    forward,  // to gRPC
+    answer,   // by Desk::answer()
     refuse,
   };
   What what = What::refuse;
   Reply refusal{};
-  // Without the right, or of no method that there is. Such calls have a budget of their own, and do not count as the
-  // caller's admission.
+  // The caller lacks the right, or the method does not exist. Such calls have a separate budget, and do not admit the
+  // caller.
   bool unwanted = false;
-  std::shared_ptr<void> place{};  // given back when the call has ended
-  std::string path{};             // of a call to forward: its ":path" for gRPC
-  // It counts in no limit of its caller, as a stop does: the front bounds how many are open, and how long they are.
+  std::shared_ptr<void> place{};  // released when the call has ended
+  std::string path{};             // ":path" for gRPC if the call is forwarded
+  // The call counts in no limit of its caller, such as a stop. The front bounds the number and the length of these
+  // calls.
   bool uncounted = false;
-  // Who was let in by a name of their own, "token alice": whatever connections this caller has, from wherever, share
-  // one budget. Empty: whom nothing names.
+  // Name of the admitted caller, such as "token alice". All connections of this caller, from any address, share one
+  // budget. Empty: anonymous.
   std::string caller{};
 };
 
@@ -71,14 +72,14 @@ class Desk {
  public:
   virtual ~Desk() = default;
 
-  // `stops_only`: the connection is one of the reserve.
+  // `stops_only`: only a stop may be let in, as on a connection of the reserve.
   virtual Verdict judge(const Headers& headers, const Peer& peer, bool stops_only) = 0;
 
-  // For a call that gRPC cannot be reached for, because no descriptors are free.
+  // Returns the refusal for a call when gRPC cannot be reached because no descriptors are free.
   virtual Reply no_room() = 0;
 
-  // `message` is that of the whole request; nothing, if the request is not one message. `wake` is called from any
-  // thread, perhaps from within this and after the answer has gone, whenever take() has something.
+  // `message` is the message of the whole request; nullopt if the request is not exactly one message. `wake` is called
+  // whenever take() has something: from any thread, possibly within answer(), and possibly after the Answer has gone.
   virtual std::unique_ptr<Answer> answer(const Headers& headers, const Peer& peer,
                                          std::optional<std::string_view> message, std::function<void()> wake) = 0;
 };

@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto kCheck = std::chrono::milliseconds(250);
 
-// A client that is gone without a word is noticed within a minute.
+// Detects within a minute that a client has disappeared without closing the connection.
 void notice_silence(int connection) {
   constexpr int kYes = 1, kIdleSeconds = 20, kBetweenSeconds = 10, kTries = 3, kUntakenMilliseconds = 50'000;
   ::setsockopt(connection, SOL_SOCKET, SO_KEEPALIVE, &kYes, sizeof kYes);
@@ -76,11 +76,11 @@ void Front::enter(Descriptor connection, server::Acceptor::Service service, serv
   const TimePoint now = monotonic_now();
   const auto source = sources_.of(peer.source, now);
   const bool from_network = origin == server::Acceptor::Origin::network;
-  // One costs a signature, which is most of what a source can make the daemon compute.
+  // Each handshake costs a signature, the most expensive computation that a source can cause.
   if (from_network && !source->handshakes.take_if_there(1, now)) {
     return on_closing_(peer, {Cause::over_budget, "more TLS handshakes a second than the daemon makes for one source"});
   }
-  // A source that connects too often keeps its stop.
+  // A source that connects too often can still stop.
   const bool too_many = !source->connections.take_if_there(1, now);
   const bool stops_only = service == server::Acceptor::Service::stop_only || too_many;
   const auto made = std::make_shared<Connection>(around_, std::move(peer), stops_only);

@@ -1,5 +1,5 @@
-// What stands before gRPC: takes every connection, ends TLS, keeps each source within its budget, lets calls in or
-// refuses them, and answers stops by itself.
+// The part of the server before gRPC: takes every connection, ends TLS, keeps each source within its budget, lets calls
+// in or refuses them, and answers stops itself.
 #pragma once
 
 #include <functional>
@@ -22,13 +22,13 @@
 
 namespace axisgate::front {
 
-// On one strand, where nothing runs any more when it is destroyed.
+// Runs on one strand, on which nothing may run when the Front is destroyed.
 class Front {
  public:
   // Called on the strand when this side has closed a connection for a cause.
   using OnClosing = std::function<void(const Peer&, const Closing&)>;
 
-  // `desk` outlives it. `to_grpc` takes a connected socket for each client that has a call for gRPC.
+  // `desk` must outlive this object. `to_grpc` receives a connected socket for each client that has a call for gRPC.
   Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
         std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits = {});
 
@@ -36,9 +36,10 @@ class Front {
 
   void enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin);
 
-  // The daemon ends: Conversation::announce_end() of all.
+  // Announces the end of the daemon to all clients: Conversation::announce_end().
   void announce_end();
-  // Calls `then` on the strand once gRPC has closed all of its connections, and clients were sent what it said before.
+  // Calls `then` on the strand once gRPC has closed all of its connections and its last answers were sent to the
+  // clients.
   void when_grpc_has_left(std::function<void()> then);
 
  private:
@@ -56,10 +57,10 @@ class Front {
   HeldBytes held_;
   const OnClosing on_closing_;
   std::optional<TlsFiles> tls_;
-  std::map<uid_t, std::string> users_;  // their names, each looked up once
+  std::map<uid_t, std::string> users_;  // names of the users, each looked up once
   Connection::Surroundings around_;
   Held connections_;
-  std::function<void()> when_grpc_has_left_;  // empty: nobody waits for it
+  std::function<void()> when_grpc_has_left_;  // empty: no caller waits
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
 };

@@ -7,8 +7,8 @@
 namespace axisgate::front {
 namespace {
 
-// gRPC may send 32 KiB of one answer before the client has taken it, and 16 MiB of all. Answers that wait stay here,
-// and others overtake them.
+// gRPC may send 32 KiB of one answer, and 16 MiB of all answers, before the client has taken them. Answers that wait
+// stay here, and other answers overtake them.
 constexpr SessionTerms kTerms{.list_bytes = 256 << 10,
                               .list_fields = 1'000,
                               .open_streams = 0,
@@ -30,18 +30,19 @@ void GrpcSide::pass(StreamId stream, std::string_view bytes, std::size_t size) {
   const bool nothing_waits = bytes.empty() && session_.unsent(stream) == 0;
   if (call == calls_.end() || nothing_waits) return client_.consume(stream, size);
   call->second.withheld += size;
-  if (bytes.size() > size) call->second.unpacked.take(bytes.size() - size);  // there is room: RequestBody has left it
+  if (bytes.size() > size) call->second.unpacked.take(bytes.size() - size);  // RequestBody has already freed this room
   session_.write(stream, bytes);
 }
 
 void GrpcSide::sent(StreamId stream, std::size_t bytes) {
   const auto call = calls_.find(stream);
   if (call == calls_.end()) return;
-  // A request that was compressed is longer here than it was sent, or shorter: a part of it counts as that part.
+  // Unpacked, a request has another length than the client sent. A share of the unpacked bytes counts as the same share
+  // of the sent bytes.
   const auto all = static_cast<double>(bytes + session_.unsent(stream));
   const auto given = static_cast<std::size_t>(static_cast<double>(call->second.withheld * bytes) / all);
   call->second.withheld -= given;
-  // Until then gRPC holds what it has of the message, and the message is not whole.
+  // The message counts until gRPC has taken all of it; until then gRPC keeps an incomplete message.
   if (session_.unsent(stream) == 0) call->second.unpacked.give_back();
   client_.consume(stream, given);
 }
@@ -105,10 +106,10 @@ void GrpcSide::forget(StreamId stream, std::size_t unsent) {
   session_.reset(stream, NGHTTP2_CANCEL);
 }
 
-// gRPC sends two. The first names no last stream, so that calls that are on their way still arrive.
+// gRPC sends two GOAWAYs. The first does not name a last stream, so calls that were sent before it still arrive.
 void GrpcSide::going_away(StreamId last, std::uint32_t error) {
   if (error == NGHTTP2_NO_ERROR && last == std::numeric_limits<StreamId>::max()) return client_.announce_end();
-  client_.end(NGHTTP2_NO_ERROR, "the daemon is ending");  // and what the front answers itself continues
+  client_.end(NGHTTP2_NO_ERROR, "the daemon is ending");  // calls that the front answers itself continue
 }
 
 void GrpcSide::failed(std::uint32_t, std::string_view) { lost(); }

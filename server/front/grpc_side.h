@@ -1,5 +1,5 @@
-// The way of one client's calls to gRPC, and of its answers back: a connection of its own, whose streams have the
-// numbers of the client's. Bytes go no faster than the side that receives them allows. No I/O, no threads.
+// Connection of one client to gRPC, with the same stream numbers as the client's connection. Carries calls to gRPC and
+// answers back, no faster than the receiver allows. No I/O, no threads.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,24 @@ namespace axisgate::front {
 
 class GrpcSide final : private Http2Session::Events {
  public:
-  // Both outlive it. `client` is the session with the client.
+  // `client` is the session with the client. Both objects must outlive this one.
   GrpcSide(Http2Session& client, HeldBytes& held);
 
   bool has(StreamId stream) const { return calls_.contains(stream); }
 
   void begin(StreamId stream, const Headers& headers, bool whole);
-  // Part of a request. The client may send `size` bytes again when gRPC has taken these.
+  // Sends part of a request. The client may send `size` more bytes when gRPC has taken these bytes.
   void pass(StreamId stream, std::string_view bytes, std::size_t size);
   void end_request(StreamId stream) { session_.finish(stream, {}); }
-  // Bytes of the request that gRPC has not taken yet.
+  // Returns the number of bytes of the request that gRPC has not taken yet.
   std::size_t waiting(StreamId stream) const { return session_.unsent(stream); }
-  // The answer is given here, not by gRPC.
+  // Gives the front's own answer instead of gRPC's.
   void refuse(StreamId stream, const Headers& alone, Headers trailers);
-  // The client's stream has gone; of the answer `unsent` bytes did not reach it.
+  // Called when the client's stream has closed. `unsent` bytes of the answer did not reach the client.
   void forget(StreamId stream, std::size_t unsent);
-  // Reports that as many bytes of an answer are on their way to the client.
+  // Reports that `bytes` of an answer were sent to the client.
   void delivered(StreamId stream, std::size_t bytes) { session_.consume(stream, bytes); }
-  // gRPC has closed the connection.
+  // Called when gRPC has closed the connection.
   void lost();
 
   void from_grpc(std::string_view bytes) { session_.feed(bytes); }
@@ -41,10 +41,10 @@ class GrpcSide final : private Http2Session::Events {
 
  private:
   struct Call {
-    Holding unpacked;          // what a request has become longer by
-    std::size_t withheld = 0;  // bytes that the client may send again, and does not know
+    Holding unpacked;          // bytes by which unpacking has lengthened the request
+    std::size_t withheld = 0;  // received bytes for which the client has no permission to send more yet
     bool answered = false;     // the head of the answer has been passed on
-    bool ended = false;        // so has its end
+    bool ended = false;        // the end of the answer has been passed on
   };
 
   bool frame_begun(const nghttp2_frame_hd&) override { return true; }

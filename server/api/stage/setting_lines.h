@@ -1,4 +1,4 @@
-// The lines that a change of settings comes to.
+// Command lines that change settings.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ namespace axisgate::api {
 
 using Lines = std::vector<std::string>;
 
-// Of one axis. What is not given stays.
+// An AxisChange changes settings of one axis. Empty members stay unchanged.
 struct AxisChange {
-  int axis = 0;  // any number: what is none is refused
+  int axis = 0;  // any number; an invalid one is refused
   std::optional<bool> closed_loop{}, excited{};
   std::optional<int> divisions{};
   std::optional<Speeds> speeds{}, origin_speeds{};
-  bool names_given = false;  // the axis's own name or scale, which cannot be changed
+  bool names_given = false;  // name or scale of the axis was given, which cannot be changed
 };
 
-// What is not given stays.
+// A SettingsChange changes settings of a controller. Empty members stay unchanged.
 struct SettingsChange {
   std::vector<AxisChange> axes{};
   std::optional<bool> display_lit{}, beep{};
@@ -35,23 +35,23 @@ struct SettingsChange {
   std::optional<stage::Trigger> trigger{};
   std::optional<bool> sleeping{};
   std::optional<std::string> mode{}, format{};
-  bool inputs_given = false;  // which cannot be changed
+  bool inputs_given = false;  // inputs were given, which cannot be changed
 };
 
-// What the place where an axis is shall be.
+// Alternatives of a NewCoordinate for the present position of an axis.
 struct SetOrigin {};
 struct UnsetOrigin {};
 struct NewCoordinate {
-  int axis = 0;  // any number: what is none is refused
-  // Nothing is refused: it was left open.
+  int axis = 0;  // any number; an invalid one is refused
+  // Left out by the caller if nullopt, which is refused.
   std::optional<std::variant<Quantity, SetOrigin, UnsetOrigin>> coordinate{};
 };
 using NewCoordinates = std::vector<NewCoordinate>;
 
-// In the order of the manual. unknown_axis, invalid_request, out_of_range, unknown_unit, not_representable; link_down
-// where amounts cannot be converted yet.
+// Returns the lines in the order of the manual. Fails with unknown_axis, invalid_request, out_of_range, unknown_unit or
+// not_representable, and with link_down if amounts cannot be converted yet.
 Result<Lines> lines_of(const SettingsChange& change, const stage::Kind& kind, const stage::State& state);
-// Likewise. All axes in the same way.
+// Returns the lines for new coordinates. All of them must have the same alternative. Fails like the function above.
 Result<Lines> lines_of(const NewCoordinates& coordinates, const stage::Kind& kind, const stage::State& state);
 
 }  // namespace axisgate::api

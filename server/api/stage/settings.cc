@@ -15,7 +15,7 @@ namespace {
 
 using stage::ExecuteEvent;
 
-// What cannot be read while something moves is not waited for: what is known of it stays.
+// Time limit for answers. A setting that cannot be read while an axis moves keeps its last known value.
 constexpr Duration kAnswerLimit = std::chrono::seconds(2);
 
 bool is_unread(const Problem& problem) {
@@ -30,7 +30,7 @@ Problem not_answered(std::string_view question, const std::string& reply) {
           .wire_reply = reply};
 }
 
-// The answers, as they come; handed over when the last has.
+// An Asking collects the answers, and delivers the settings after the last one.
 class Asking {
  public:
   Asking(const stage::Kind& kind, const stage::State& state, std::size_t questions, Answer<stage::Settings> answer)
@@ -99,7 +99,8 @@ void Settings::get(const Call& call, std::string_view device, Answer<stage::Sett
                 });
 }
 
-// As one transaction of the lines that the request comes to. Administrators' lines are refused before any is sent.
+// Runs the lines of the request as one transaction. Lines that are kept for administrators are refused before any is
+// sent.
 template <class ToLines>
 void Settings::set(const Asked& asked, std::string_view verb, Answer<void> answer, ToLines to_lines) const {
   pipeline_.run(

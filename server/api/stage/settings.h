@@ -1,4 +1,4 @@
-// What a controller is set to beside its motion.
+// Settings of a controller.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,16 @@ namespace axisgate::api {
 // Thread safe.
 class Settings {
  public:
-  // All outlive this, and `access` the gateway.
+  // The referenced objects must outlive this one; `access` must also outlive the gateway.
   Settings(const server::Gateway& gateway, const server::Access& access, const Pipeline& pipeline)
       : gateway_(gateway), access_(access), pipeline_(pipeline) {}
 
-  // Read from the device. What cannot be read while something moves is as it was last known. link_down, device_refused.
+  // Reads the settings from the controller. While an axis moves, settings that cannot be read keep their last known
+  // value. Fails with link_down or device_refused.
   void get(const Call& call, std::string_view device, Answer<stage::Settings> answer) const;
 
-  // Each as one transaction. not_allowed for what the configuration keeps for administrators, and as lines_of() and
-  // Kind::check_lines().
+  // Each of the following runs one transaction. Fails with not_allowed if the configuration keeps a line for
+  // administrators, and as lines_of() and Kind::check_lines() do.
   void change(const Call& call, std::string_view device, const Result<SettingsChange>& change,
               Answer<void> answer) const;
   void set_coordinates(const Call& call, std::string_view device, const Result<NewCoordinates>& coordinates,

@@ -25,7 +25,8 @@ using server::Stage;
 using stage::StageController;
 using stage::StopReport;
 
-// The reports of all devices that are stopped together. Each device fills its own place, on its own strand.
+// A Gathering collects the reports of devices that are stopped together. Each device fills its own element, on its own
+// strand.
 class Gathering {
  public:
   Gathering(const std::vector<Device*>& devices, Answer<std::vector<DeviceStop>> answer)
@@ -33,13 +34,13 @@ class Gathering {
     for (const Device* device : devices) stops_.push_back({.device = device, .report = {}});
   }
 
-  // Once for each device.
+  // Called once for each device.
   void add(std::size_t index, StopReport report, const stage::State& state) {
     stops_[index].report = std::move(report);
     stops_[index].state = state;
     if (--missing_ == 0) answer_(std::move(stops_));
   }
-  // The line of this device is closed already, since the daemon ends; `at_exit` has been obeyed.
+  // Reports that the device's line is closed already, because the daemon ends; its `at_exit` was executed before.
   void add_too_late(std::size_t index) { add(index, {.axes = {}, .problem = daemon_ending()}, {}); }
 
  private:
@@ -48,7 +49,7 @@ class Gathering {
   const Answer<std::vector<DeviceStop>> answer_;
 };
 
-// `running`: the job that was aborted.
+// Returns the report of an aborted mill. `running` is the job that was aborted.
 StopReport report_of_abort(const Mill& mill, const std::optional<rml1::RunningJob>& running, bool sent) {
   if (!sent) return {.axes = {}, .problem = not_sent_to(mill)};
   if (!running) return {};
@@ -73,7 +74,7 @@ void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shar
       [gathering, index] { gathering->add_too_late(index); });
 }
 
-// `start(controller, now, done)` stops one stage.
+// Stops all devices. `start(controller, now, done)` stops one stage.
 template <class Start>
 void stop_each(const std::vector<Device*>& devices, const stage::RequestContext& context,
                Answer<std::vector<DeviceStop>> answer, Start start) {

@@ -1,5 +1,5 @@
-// Stops: without quota, lease, queue or validate_only, and refused for nothing in their context. The only request that
-// does not go through the pipeline.
+// Stops. They need no quota, lease, queue or validate_only, and their context never refuses them. No other request
+// bypasses the pipeline.
 #pragma once
 
 #include <string_view>
@@ -16,29 +16,29 @@ namespace axisgate::api {
 
 struct DeviceStop {
   const server::Device* device = nullptr;  // never null
-  stage::StopReport report;                // of a mill without axes
-  stage::State state{};                    // of a stage, as the report was made
+  stage::StopReport report;                // without axes for a mill
+  stage::State state{};                    // of a stage, at the time of the report
 };
 
 // Thread safe.
 class Stops {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   Stops(const server::Gateway& gateway, const Admission& admission) : gateway_(gateway), admission_(admission) {}
 
-  // Of these axes; of none named, of all. Of an empty device name: of all devices, at the same time. A mill is sent the
-  // abort of the job that runs; that is reported as outcome_unknown, since a mill never answers. Answers when all axes
-  // are stationary, the wait for it has run out, or at the call's deadline; one for each device, in the order of the
-  // configuration. Axes without a device are of the only stage; invalid_request where there are several. Also
-  // unknown_device, or as `axes` is at fault.
+  // Stops `axes`; empty: all. Empty device name: stops all devices at the same time. A mill receives the abort of its
+  // running job, reported as outcome_unknown, because a mill never answers. Answers when all axes are stationary, when
+  // the wait for this has run out, or at the call's deadline, with one report for each device, in the order of the
+  // configuration. Axes without a device belong to the only stage; fails with invalid_request if there are several.
+  // Also fails with unknown_device, and with the problem of `axes`.
   void stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
             Answer<std::vector<DeviceStop>> answer) const;
 
-  // The same of all axes. invalid_request, unknown_device.
+  // Does the same with an emergency stop of all axes. Fails with invalid_request or unknown_device.
   void emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const;
 
  private:
-  // Those to be stopped. With `axes` only such that have some.
+  // Returns the devices to stop. With `axes` and an empty name, returns only stages.
   Result<std::vector<server::Device*>> find_devices(std::string_view device, bool axes) const;
 
   const server::Gateway& gateway_;

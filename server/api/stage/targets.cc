@@ -14,7 +14,7 @@ tl::unexpected<Problem> speeds_need(std::string_view what) {
               "give minimum, maximum and acceleration_ms, or ask again once the device's link is up");
 }
 
-// Manual 89) D:, S <= F: an axis's present S may lie above a new, lower F, which it then is lowered to.
+// Returns the present S, lowered to the new F if it is above it, because S <= F (manual 89) D:).
 Result<Quantity> minimum_under(const Quantity& maximum, const stage::AxisState& axis) {
   if (!axis.minimum_speed) return speeds_need("minimum speed S");
   if (maximum.unit != Unit::pulses && !axis.scale) return speeds_need("scale");

@@ -1,4 +1,4 @@
-// Axes, targets and speeds as callers give them, completed from what is known of the device.
+// Axes, targets and speeds as callers give them, completed from the known state of the device.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace axisgate::api {
 
-// S, F and R of an axis. What is left out stays as the axis has it.
+// Speeds are S, F and R of an axis. Members that are left out keep the axis's present value.
 struct Speeds {
   std::optional<Quantity> minimum{}, maximum{};  // per second
   std::optional<int> acceleration_ms{};
@@ -20,7 +20,7 @@ struct Speeds {
 
 struct AxisTarget {
   int axis = 0;       // 1 to 3
-  Quantity distance;  // a place, or a way where the move is relative
+  Quantity distance;  // a position, or a displacement if the move is relative
   std::optional<Speeds> speeds{};
   std::optional<Quantity> approach{};
 };
@@ -30,22 +30,22 @@ struct Move {
   bool relative = false;
 };
 
-// 1 to 3. unknown_axis.
+// Checks for 1 to 3. Fails with unknown_axis.
 Result<int> checked_axis(int number);
-// Likewise, each once: invalid_request. No axes stay no axes.
+// Checks each axis like checked_axis(). Fails with invalid_request if an axis is named twice. No axes stay no axes.
 Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers);
 
-// "axis 1: ..."
+// Returns the problem with its axis: "axis 1: ...".
 Problem on_axis(int axis, Problem problem);
 
-// The axes meant: all controllable ones where none is named. unknown_axis where one is not controllable; link_down
-// where it is not known which are.
+// Returns the named axes, or all controllable axes if none is named. Fails with unknown_axis if an axis is not
+// controllable, and with link_down if the controllable axes are unknown.
 Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::State& state);
 
-// invalid_request where something is left out that is not known of the axis.
+// Fails with invalid_request if a value is left out and the axis's present value is unknown.
 Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisState& axis);
 
-// With the device's present speeds. invalid_request.
+// Completes the move with the device's present speeds. Fails with invalid_request.
 Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, stage::RequestContext context);
 
 }  // namespace axisgate::api
