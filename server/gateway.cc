@@ -17,7 +17,7 @@
 namespace axisgate::server {
 namespace {
 
-// Longer than any reply's time limit and the barrier behind it.
+// Longer than any reply's time limit and a barrier after it.
 constexpr Duration kLastExchangeLimit = std::chrono::seconds(10);
 
 std::string random_run() {
@@ -29,7 +29,7 @@ Executor posting_to(boost::asio::io_context& context) {
   return [&context](std::function<void()> task) { boost::asio::post(context, std::move(task)); };
 }
 
-// Null where nothing can be kept.
+// Returns null and logs a warning if the record cannot be opened.
 template <class Record>
 std::unique_ptr<Record> kept(Result<std::unique_ptr<Record>> record) {
   if (record) return *std::move(record);
@@ -48,14 +48,14 @@ FactsBefore facts_before(journal::Journal* journal) {
   return journal == nullptr ? FactsBefore() : journal->take_facts();
 }
 
-// Empty where nothing can be kept.
+// Empty without a journal.
 EventBus::Keep keep_in(journal::Journal* journal) {
   if (journal == nullptr) return {};
   return [journal](FactPointer fact, std::uint64_t oldest) { journal->keep(std::move(fact), oldest); };
 }
 
-// Asio opens what its timers need with the first of them, and throws without a free descriptor: while it starts a
-// daemon may fail so, later not.
+// Asio allocates descriptors with the first timer, and throws if none is free. This may fail at the daemon's start, but
+// not later.
 void open_timers(boost::asio::io_context& context) { const boost::asio::steady_timer first(context); }
 
 }  // namespace
@@ -110,7 +110,7 @@ Gateway::~Gateway() {
   for (const auto& device : devices_) device->shutdown();
   readers_work_.reset();
   readers_.stop();
-  // What the lines still have to say in order has been said by shutdown(); their timers end with the thread.
+  // shutdown() has already sent the last commands of each line. The lines' timers end with their thread.
   lines_.stop();
   if (readers_thread_.joinable()) readers_thread_.join();
   for (const auto& device : devices_) device->recorder().flush();

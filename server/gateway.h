@@ -1,4 +1,4 @@
-// The one place that wires everything below gRPC: devices, their lines, the event bus, metrics and the threads.
+// Owner of everything below gRPC: devices, their lines, the event bus, metrics and the threads.
 #pragma once
 
 #include <functional>
@@ -26,28 +26,30 @@ namespace axisgate::server {
 
 class RecordingFile;
 
-// Two threads: one drives all lines, each device on a strand of its own; the other wakes the readers of streams, so
-// that a thousand of them cost the lines nothing. Every member may be called from any thread once start() has returned.
+// The gateway has two threads: one drives all lines, with a strand for each device; the other wakes the readers of
+// streams, so that even a thousand readers do not delay the lines. All members are thread safe once start() has
+// returned.
 class Gateway {
  public:
-  // `generation` is greater for every start of the daemon (access/generation.h). What moves is kept in
-  // `state_directory` for a run after this one; without it nothing is. `journal` and `spool` outlive this. A null
-  // journal: `kept = false`. A null spool: mills of the configuration are left out.
+  // `generation` grows with every start of the daemon (access/generation.h). `state_directory` keeps records for the
+  // next run; empty: no records. `journal` and `spool` must outlive this object. A null journal means `kept = false`.
+  // With a null spool, mills of the configuration are left out.
   Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {},
           journal::Journal* journal = nullptr, spool::Spool* spool = nullptr);
-  // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
+  // Ends the threads. Unanswered requests stay unanswered, so their callers must have gone before.
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
 
   void start();
 
-  // Winds all devices down at once, then calls `done` on the lines' thread. Once.
+  // Winds all devices down at the same time, then calls `done` on the lines' thread. Call it once.
   void wind_down(std::function<void()> done);
-  // By then it is over, unless a line hangs in its driver.
+  // Time after which wind_down() is complete, unless a line's driver blocks.
   Duration wind_down_limit() const;
 
-  // A different text for every start of the daemon. Without a journal, revisions and motions count from 1 again.
+  // Random text, different for every start of the daemon. Without a journal, revisions and motions then start again
+  // from 1.
   const std::string& run() const { return run_; }
 
   const Config& config() const { return config_; }
@@ -57,11 +59,11 @@ class Gateway {
   journal::RequestMemory& requests() { return requests_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
-  // Those of them that are stages.
+  // The devices that are stages.
   const std::vector<Stage*>& stages() const { return stages_; }
-  Stage* find_stage(std::string_view name) const;  // null when there is none
+  Stage* find_stage(std::string_view name) const;  // null if there is none
 
-  // Calls tasks on the readers' thread.
+  // Tasks of these time limits run on the readers' thread.
   Timeouts& timeouts() { return timeouts_; }
 
  private:
@@ -83,7 +85,7 @@ class Gateway {
   Metrics metrics_;
   EventBus events_;
   std::vector<std::unique_ptr<Device>> devices_;
-  std::vector<Stage*> stages_;  // of devices_
+  std::vector<Stage*> stages_;  // from devices_
   std::vector<std::unique_ptr<RecordingFile>> recording_files_;
   std::thread readers_thread_;
 };

@@ -7,7 +7,7 @@
 namespace axisgate::server {
 
 DeviceKinds device_kinds() {
-  // A new kind of stage controller is one line here.
+  // To add a kind of stage controller, add a line here.
   static const std::array<const stage::Kind*, 1> stages = {
       &shrc203::kind(),
   };

@@ -14,7 +14,7 @@
 namespace axisgate::server::log {
 namespace {
 
-// spdlog's own sinks for standard error flush every line, which costs five times as much as writing it.
+// spdlog's own sinks for standard error flush every line, which takes five times as long as writing it.
 class BufferedStandardError final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   BufferedStandardError() { std::setvbuf(stderr, nullptr, _IOFBF, 64 * 1024); }

@@ -1,5 +1,5 @@
-// The daemon's log: lines on standard error, collected and written in portions. spdlog is included by log.cc alone:
-// formatting with it takes each file that does so three seconds to compile.
+// The daemon's log: lines on standard error, collected and written in portions. Only log.cc includes spdlog, since
+// formatting with spdlog adds three seconds to the compilation of each file.
 #pragma once
 
 #include <fmt/core.h>
@@ -8,17 +8,17 @@
 
 namespace axisgate::server::log {
 
-// Configures the log. A line that warns goes out at once, others within a second. SPDLOG_LEVEL in the environment sets
-// what is logged.
+// Configures the log. Warnings and errors are written at once, other lines within a second. SPDLOG_LEVEL in the
+// environment sets the level.
 void start();
 void flush();
 
 enum class Level { debug, info, warn, error, critical };
 
-// Thread safe. Formats only what the configured level lets through.
+// Thread safe. Formats only lines of the configured level or above.
 void write(Level level, fmt::string_view format, fmt::format_args arguments);
 
-// The rest write one line each.
+// Each of the following functions writes one line.
 template <class... Arguments>
 void line(Level level, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write(level, format, fmt::make_format_args(arguments...));

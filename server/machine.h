@@ -1,4 +1,4 @@
-// On what a program runs, as far as it matters to somebody who helps; clients include it, too.
+// Description of the machine for support; clients include this file, too.
 #pragma once
 
 #include <sys/utsname.h>
@@ -8,7 +8,7 @@
 
 namespace axisgate::server {
 
-// "Debian GNU/Linux 12 (bookworm), Linux 6.1.0-18-amd64 x86_64". Not the machine's name.
+// Returns system and kernel, without the machine's name: "Debian GNU/Linux 12 (bookworm), Linux 6.1.0-18-amd64 x86_64".
 inline std::string machine_text() {
   constexpr std::string_view kKey = "PRETTY_NAME=";
   std::string text;

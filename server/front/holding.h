@@ -1,4 +1,4 @@
-// Bytes of requests that the front holds until they are whole, of all connections together.
+// Bytes of incomplete requests that the front keeps, over all connections.
 #pragma once
 
 #include <cstddef>
@@ -26,16 +26,16 @@ inline std::size_t counted(std::size_t bytes) {
   return bytes > kFree ? bytes - kFree : 0;
 }
 
-// A Holding is the share of one call. It returns all of it when it is destroyed.
+// A Holding is the share of one call. Its destructor gives all of it back.
 class Holding {
  public:
-  // `all` outlives it.
+  // `all` must outlive this object.
   explicit Holding(HeldBytes& all) : all_(&all) {}
   Holding(Holding&& other) noexcept : all_(other.all_), bytes_(std::exchange(other.bytes_, 0)) {}
   Holding& operator=(Holding&&) = delete;
   ~Holding() { all_->held_ -= bytes_; }
 
-  // False: there is no room for so many more.
+  // Returns false if there is no room for `bytes` more.
   bool take(std::size_t bytes) {
     if (all_->held_ + bytes > all_->most_) return false;
     all_->held_ += bytes;
@@ -43,7 +43,7 @@ class Holding {
     return true;
   }
   void give_back() { give_back(bytes_); }
-  // At most what is held.
+  // Gives back at most the bytes of this Holding.
   void give_back(std::size_t bytes) {
     const std::size_t given = bytes < bytes_ ? bytes : bytes_;
     all_->held_ -= given;

@@ -35,7 +35,7 @@ bool ends_stream(const nghttp2_frame& frame) { return (frame.hd.flags & NGHTTP2_
 
 }  // namespace
 
-// The library's callbacks, each of which reaches the session that it is about.
+// The library's callbacks. Each calls its session.
 struct Http2Session::Callbacks {
   static Http2Session& of(void* session) { return *static_cast<Http2Session*>(session); }
   static int answer(bool continues) { return continues ? 0 : NGHTTP2_ERR_CALLBACK_FAILURE; }
@@ -97,7 +97,7 @@ struct Http2Session::Callbacks {
     return all;
   }
 
-  // The front has budgets of its own; these are above them.
+  // The front has its own budgets; these limits are above them.
   static nghttp2_option* options() {
     constexpr std::size_t kAcks = 100'000, kSettings = 64, kContinuations = 64;
     constexpr std::uint64_t kResets = 1'000'000;
@@ -109,9 +109,9 @@ struct Http2Session::Callbacks {
     ::nghttp2_option_set_max_settings(all, kSettings);
     ::nghttp2_option_set_max_continuations(all, kContinuations);
     ::nghttp2_option_set_stream_reset_rate_limit(all, kResets, kResets);
-    // Some clients send a blank at the end of a value, which harms nobody.
+    // A blank at the end of a value is harmless, and some clients send one.
     ::nghttp2_option_set_no_rfc9113_leading_and_trailing_ws_validation(all, 1);
-    // Otherwise the library skips frames of unknown types without a word.
+    // Otherwise the library skips frames of unknown types without a report.
     constexpr int kKnownTypes = 10, kTypes = 256;
     for (int type = kKnownTypes; type < kTypes; ++type) {
       ::nghttp2_option_set_user_recv_extension_type(all, static_cast<std::uint8_t>(type));
@@ -213,12 +213,12 @@ void Http2Session::frame_sent(const nghttp2_frame& frame) {
   }
   const bool carries = frame.hd.type == NGHTTP2_HEADERS || frame.hd.type == NGHTTP2_DATA;
   if (role_ == Role::client || !carries || !ends_stream(frame)) return;
-  // What the client still sends of a call that has its answer is not read.
+  // An answered call ends here: the rest of its request is not read.
   const StreamId stream = frame.hd.stream_id;
   if (::nghttp2_session_get_stream_remote_close(session_.get(), stream) == 0) reset(stream, NGHTTP2_NO_ERROR);
 }
 
-// An answer's headers were too long. A request is refused after the other end's GOAWAY: the library closes its stream.
+// The headers of an answer were too long. The library itself closes the stream of a request refused after a GOAWAY.
 void Http2Session::headers_not_sent(StreamId stream) {
   if (role_ == Role::server) reset(stream, NGHTTP2_INTERNAL_ERROR);
 }
@@ -300,7 +300,7 @@ void Http2Session::reset(StreamId stream, std::uint32_t error) {
 
 void Http2Session::put_first(StreamId stream) { take_turns(stream, NGHTTP2_EXTPRI_URGENCY_HIGH); }
 
-// Without turns the library would send one answer to its end before the next one of the same urgency.
+// Otherwise the library would send one answer completely before the next answer of the same urgency.
 void Http2Session::take_turns(StreamId stream, std::uint32_t urgency) {
   const nghttp2_extpri priority{.urgency = urgency, .inc = 1};
   constexpr int kWhateverTheClientSays = 1;

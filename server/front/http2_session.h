@@ -1,5 +1,5 @@
-// One end of an HTTP/2 connection (RFC 9113), by nghttp2: bytes in, bytes out. Frames, compression of headers, flow
-// control and the rules of the protocol are the library's. What a call means, and what it may cost, is its owner's.
+// One end of an HTTP/2 connection (RFC 9113): bytes in, bytes out. The library nghttp2 handles frames, header
+// compression, flow control and the rules of the protocol. The owner decides about calls and their cost.
 #pragma once
 
 #include <nghttp2/nghttp2.h>
@@ -18,22 +18,22 @@ namespace axisgate::front {
 
 using StreamId = std::int32_t;
 
-// Headers that are whole.
+// Complete headers of a call or an answer.
 struct HeaderBlock {
   StreamId stream = 0;
-  Headers headers;        // those that fit into SessionTerms::list_bytes and list_fields
-  std::size_t bytes = 0;  // of all of them, as list_bytes() counts
-  bool fits = true;       // all of them did
-  bool trailers = false;  // of a stream that has had headers
-  bool last = false;      // nothing follows on this stream
+  Headers headers;        // headers that fit into SessionTerms::list_bytes and list_fields
+  std::size_t bytes = 0;  // of all headers, as list_bytes() counts
+  bool fits = true;       // all headers fit
+  bool trailers = false;  // the stream has already had headers
+  bool last = false;      // no data follows on this stream
 };
 
-// One end announces these bounds, and enforces them.
+// Limits that one end announces and enforces.
 struct SessionTerms {
   std::size_t list_bytes = 0, list_fields = 0;  // of headers, or of trailers
-  std::uint32_t open_streams = 0;               // which the other end may have at once; a server's only
-  std::uint32_t stream_window = 0;              // bytes of a stream that may be underway to this end
-  std::int32_t connection_window = 0;           // likewise of all streams together
+  std::uint32_t open_streams = 0;               // that the other end may have at once; for a server only
+  std::uint32_t stream_window = 0;              // bytes that the other end may send ahead on one stream
+  std::int32_t connection_window = 0;           // the same for all streams together
 };
 
 // Not thread safe.
@@ -41,76 +41,77 @@ class Http2Session {
  public:
   enum class Role { server, client };
 
-  // What happens, within feed() and take(). After a false, which end() came before, nothing more of the feed is read.
+  // Events are called within feed() and take(). An event returns false after it has called end(); the rest of the feed
+  // is then not read.
   class Events {
    public:
     virtual ~Events() = default;
-    // Each frame, before its payload is read, also one that the library then ignores.
+    // Called for each frame before its payload is read, even if the library then ignores the frame.
     virtual bool frame_begun(const nghttp2_frame_hd& frame) = 0;
-    // One that is against the rules, so that its stream is reset.
+    // Called for a frame that breaks the rules and whose stream is therefore reset.
     virtual bool frame_refused() = 0;
     virtual bool headers_came(HeaderBlock block) = 0;
-    // Part of the payload of DATA; consume() allows as much to be sent again.
+    // Delivers part of the payload of DATA. consume() allows the other end to send as much again.
     virtual bool data_came(StreamId stream, std::string_view bytes) = 0;
     // The other end sends nothing more on this stream.
     virtual bool stream_ended(StreamId stream) = 0;
-    // The stream has gone; of what was written to it `unsent` bytes were not sent.
+    // The stream has closed; `unsent` bytes that were written to it were not sent.
     virtual void stream_closed(StreamId stream, std::uint32_t error, std::size_t unsent) = 0;
-    // As many bytes of write() are on their way.
+    // `bytes` of write() were put into frames.
     virtual void sent(StreamId stream, std::size_t bytes) = 0;
     // The other end takes no new streams beyond `last`.
     virtual void going_away(StreamId last, std::uint32_t error) = 0;
-    // The library ends the connection on its own account.
+    // The library itself ends the connection.
     virtual void failed(std::uint32_t error, std::string_view why) = 0;
   };
 
-  // `events` outlives it.
+  // `events` must outlive this object.
   Http2Session(Role role, const SessionTerms& terms, Events& events);
   Http2Session(const Http2Session&) = delete;
   Http2Session& operator=(const Http2Session&) = delete;
 
-  // False: the connection is over, and nothing more may be fed.
+  // Returns false if the connection is over. Nothing more may then be fed.
   bool feed(std::string_view bytes);
-  // What is to be sent next; about `limit` bytes at most.
+  // Returns the next bytes to send, about `limit` at most.
   std::string take(std::size_t limit);
   bool has_more() const;
-  // Neither end will say more: the other sent a GOAWAY, and the last stream has ended.
+  // Reports whether neither end will send more: the other end sent a GOAWAY, and the last stream has ended.
   bool is_over() const;
-  // Frames that wait to be taken.
+  // Number of frames that wait to be taken.
   std::size_t waiting() const { return ::nghttp2_session_get_outbound_queue_size(session_.get()); }
 
-  // A client's: opens a stream, with an odd number above all before. Its body follows by write() and finish(); there is
-  // none, if `last`.
+  // Opens a stream of a client, with an odd number greater than all before. The body follows by write() and finish();
+  // there is none if `last` is set.
   void request(StreamId stream, const Headers& headers, bool last);
-  // A server's: the head of an answer. Likewise.
+  // Sends the head of a server's answer. `last` as above.
   void respond(StreamId stream, const Headers& headers, bool last);
-  // Part of a body. It waits until the other end's windows let it out.
+  // Adds to a body. The bytes wait until the other end's windows allow them.
   void write(StreamId stream, std::string_view bytes);
-  // Behind all that was written. Without trailers the last bytes end the stream.
+  // Ends the body after all written bytes. Without trailers, the last bytes end the stream.
   void finish(StreamId stream, Headers trailers);
   void reset(StreamId stream, std::uint32_t error);
-  // What of the body of this stream was not sent yet.
+  // Returns the number of bytes of the stream's body that were not sent yet.
   std::size_t unsent(StreamId stream) const;
-  // A server's: its answer goes before those of other streams, which otherwise take turns.
+  // Puts a server's answer before those of other streams, which otherwise take turns.
   void put_first(StreamId stream);
 
-  // The other end may send as many bytes again, on this stream and on the connection; if the stream has gone, only on
-  // the connection.
+  // Allows the other end to send as many bytes again, on this stream and on the connection; only on the connection if
+  // the stream has closed.
   void consume(StreamId stream, std::size_t bytes);
 
-  // A server's: no new streams soon. What is open continues.
+  // Announces, as a server, that new streams will soon be refused. Open streams continue.
   void announce_end() { ::nghttp2_submit_shutdown_notice(session_.get()); }
-  // Sends a GOAWAY that names the last stream that came. Without an error, open streams continue.
+  // Sends a GOAWAY that names the last stream received. Without an error, open streams continue.
   void end(std::uint32_t error, std::string_view why);
 
  private:
-  // The body of a stream.
+  // Body of a stream.
   struct Body {
     std::string bytes;
-    std::size_t at = 0;  // what was sent
+    std::size_t at = 0;  // bytes already sent
     Headers trailers;
     bool finished = false;
-    bool sleeps = false;  // the library does not ask until it is woken
+    bool sleeps = false;  // the library does not ask for more until wake()
     std::size_t left() const { return bytes.size() - at; }
   };
   struct Delete {
@@ -133,7 +134,7 @@ class Http2Session {
   const SessionTerms terms_;
   Events& events_;
   std::unique_ptr<nghttp2_session, Delete> session_;
-  std::optional<HeaderBlock> block_;  // not whole yet
+  std::optional<HeaderBlock> block_;  // incomplete headers
   std::unordered_map<StreamId, Body> bodies_;
   bool ended_ = false;
 };

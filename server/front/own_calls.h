@@ -21,21 +21,21 @@ class OwnCalls {
   // Called from any thread when pull() has something to fetch.
   using OnAnswer = std::function<void(StreamId stream)>;
 
-  // All outlive it.
+  // The referenced objects must outlive this one.
   OwnCalls(Desk& desk, const Peer& peer, HeldBytes& held, Http2Session& client, OnAnswer on_answer)
       : desk_(desk), peer_(peer), held_(held), client_(client), on_answer_(std::move(on_answer)) {}
 
   bool has(StreamId stream) const { return calls_.contains(stream); }
 
   void begin(StreamId stream, Headers headers);
-  // A piece of its request. A refusal, if it cannot be taken.
+  // Takes a piece of the request. Returns a refusal if it cannot be taken.
   std::optional<Reply> take(StreamId stream, std::string_view bytes);
-  // Its request is whole.
+  // Called when the request is complete; asks the desk.
   void ask(StreamId stream);
-  // Its caller has left it, or it has been answered.
+  // Removes a call that its caller has left or that has been answered.
   void forget(StreamId stream) { calls_.erase(stream); }
 
-  // Sends what the desk has. Nothing, if the call has gone.
+  // Sends the desk's replies. Does nothing if the call has gone.
   void pull(StreamId stream);
 
  private:
@@ -44,7 +44,7 @@ class OwnCalls {
     Holding holding;
     std::string request{};
     std::unique_ptr<Answer> answer{};
-    bool begun = false;  // its head has been sent
+    bool begun = false;  // the head of the answer has been sent
   };
 
   Desk& desk_;

@@ -1,4 +1,4 @@
-// Whether what a client has begun continues: slow is allowed, and endless is not.
+// Detection of clients that do not finish a frame or a request: slow is allowed, endless is not.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace axisgate::front {
 
 class Pace {
  public:
-  // At least so many bytes in each span.
+  // Least number of bytes in each span.
   struct Least {
     std::size_t bytes = 0;
     Duration span{};
@@ -21,7 +21,7 @@ class Pace {
   }
   void came(std::size_t bytes) { bytes_ += bytes; }
 
-  // A span has passed with too little in it. Otherwise the next one begins when one is over.
+  // Reports whether too few bytes came in a completed span. Otherwise, the next span begins when one is over.
   bool stalled(const Least& least, TimePoint now) {
     if (now - since_ < least.span) return false;
     if (bytes_ < least.bytes) return true;

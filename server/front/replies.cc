@@ -11,7 +11,7 @@ namespace {
 
 const Headers kHead = {{":status", "200"}, {"content-type", "application/grpc"}};
 
-// As gRPC's protocol wants grpc-message: what is not printable ASCII, and the percent sign, by its code.
+// Encodes grpc-message as gRPC's protocol requires: all but printable ASCII, and the percent sign, as a code.
 std::string percent_encoded(std::string_view text) {
   std::string encoded;
   for (const char c : text) {
@@ -25,9 +25,9 @@ std::string percent_encoded(std::string_view text) {
   return encoded;
 }
 
-// Without padding, as gRPC wants headers whose names end with -bin.
+// Encodes without padding, as gRPC requires of headers whose names end with -bin.
 std::string base64(std::string_view bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and a zero that EVP adds
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // EVP adds a zero
   const int size =
       ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
                         reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));

@@ -1,4 +1,4 @@
-// How a call is answered that gRPC does not see: by headers and trailers, as gRPC's protocol over HTTP/2 has them.
+// Headers and trailers of calls that the front answers itself, in gRPC's protocol over HTTP/2.
 #pragma once
 
 #include "server/front/desk.h"
@@ -6,11 +6,11 @@
 
 namespace axisgate::front {
 
-// Before the first message of an answer.
+// Returns the headers before the first message of an answer.
 Headers answer_head();
-// The status follows the last one.
+// Returns the trailers with the status, after the last message.
 Headers trailers_of(const Reply& reply);
-// Both in one, where there is no message.
+// Returns headers and status together, for an answer without a message.
 Headers answer_without_body(const Reply& reply);
 
 }  // namespace axisgate::front

@@ -69,7 +69,7 @@ std::optional<Reply> RequestBody::begin_message() {
                  .message = fmt::format("a message of this request has {} bytes; the daemon takes {} at most", left_,
                                         message_bytes_)};
   }
-  // Some clients call an empty message compressed, and it is.
+  // An empty message needs no unpacking, but some clients mark it as compressed.
   if (left_ == 0 && prefix_[0] == 1) prefix_[0] = 0;
   if (prefix_[0] == 0) return std::nullopt;
   if (!unknown_encoding_.empty()) {

@@ -1,6 +1,5 @@
-// The messages in the body of one request, as gRPC's protocol packs them: a flag, a length, and the message. What a
-// client has compressed is unpacked here, in pieces and within bounds, since gRPC 1.51 unpacks all of a message before
-// it looks at its size.
+// The messages in the body of one request, in gRPC's format: a flag, a length, and the message. Compressed messages are
+// unpacked here, in pieces and within bounds, since gRPC 1.51 unpacks a whole message before it checks the size.
 #pragma once
 
 #include <zlib.h>
@@ -20,18 +19,18 @@ namespace axisgate::front {
 // Not thread safe.
 class RequestBody {
  public:
-  // `encoding` is the call's grpc-encoding; empty: none. `all` outlives it.
+  // `encoding` is the call's grpc-encoding; empty: none. `all` must outlive this object.
   RequestBody(std::string_view encoding, std::size_t message_bytes, HeldBytes& all);
 
-  // Appends to `out` what is passed on of these bytes: messages that are not compressed. The answer to the call, where
-  // they cannot be taken.
+  // Appends to `out` the uncompressed messages in these bytes. Returns the answer to the call if the bytes cannot be
+  // taken.
   std::optional<Reply> take(std::string_view bytes, std::string& out);
-  // What take() gave out is accounted for elsewhere from now on.
+  // Ends the accounting for messages that take() gave out; another object accounts for them after this call.
   void passed_on() { unpacked_.give_back(std::exchange(given_out_, 0)); }
 
-  // A message has begun, and is not whole.
+  // Reports whether a message is incomplete.
   bool unfinished() const { return !prefix_.empty(); }
-  // Bytes that came out of compressed messages since the last time.
+  // Returns the number of bytes unpacked since the last call.
   std::size_t take_cost() { return std::exchange(cost_, 0); }
 
  private:
@@ -51,18 +50,18 @@ class RequestBody {
   const bool unpacks_;  // gzip or deflate
   const std::string unknown_encoding_;
   const std::size_t message_bytes_;
-  std::string prefix_;                  // of the message that has begun
-  std::size_t left_ = 0;                // of this message
-  std::unique_ptr<Inflater> inflater_;  // while it is a compressed one
-  std::string message_;                 // what has been unpacked of it
-  Holding unpacked_;                    // that, and messages that were given out
+  std::string prefix_;                  // of the present message
+  std::size_t left_ = 0;                // bytes of the present message still to come
+  std::unique_ptr<Inflater> inflater_;  // null for an uncompressed message
+  std::string message_;                 // unpacked part of the present message
+  Holding unpacked_;                    // for message_, and for messages that were given out
   std::size_t given_out_ = 0;
   std::size_t cost_ = 0;
 };
 
-// A message as a body carries it.
+// Returns the message as a body carries it.
 std::string with_prefix(std::string_view message);
-// The message of a body that holds one, not compressed; nothing if it holds none, or more.
+// Returns the only message of a body without compression. nullopt if there is none, or more than one.
 std::optional<std::string_view> only_message(std::string_view body);
 
 }  // namespace axisgate::front

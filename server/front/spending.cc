@@ -6,7 +6,8 @@
 namespace axisgate::front {
 namespace {
 
-// Who asks again after each refusal is slowed down; who sends so many at once floods.
+// Longest delay after refusals: it slows down a client that retries after each refusal. A longer debt counts as a
+// flood.
 constexpr Duration kRefusalsWait = std::chrono::seconds(2);
 
 }  // namespace
@@ -25,7 +26,7 @@ void Spending::admit(const std::string& caller, TimePoint now) {
   caller_elsewhere_ = sources_.of(caller_, now);
 }
 
-// Of all connections of the source, and of all of the caller.
+// Charges all connections of the source and all of the caller; returns the longer debt.
 Duration Spending::debt_of_others(Cost cost, double tokens, TimePoint now) {
   const Duration of_source = source_->frames.take(cost, tokens, now);
   return caller_elsewhere_ ? std::max(of_source, caller_elsewhere_->frames.take(cost, tokens, now)) : of_source;

@@ -1,5 +1,5 @@
-// What one connection costs: its own budgets, and those that it shares with others of its source and of its caller.
-// No threads.
+// Costs of one connection: its own budgets, and those shared with other connections of its source and of its caller. No
+// threads.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,16 @@ namespace axisgate::front {
 
 class Spending {
  public:
-  // `sources` outlives it. `source` is Peer::source.
+  // `sources` must outlive this object. `source` is Peer::source.
   Spending(const FrontLimits& limits, Sources& sources, const std::string& source, TimePoint now);
 
-  // False: the connection must end. What may wait is read later instead: not_before().
+  // Returns false if the connection must end. Costs that may wait delay the reading instead: not_before().
   bool spend(Cost cost, double tokens, TimePoint now);
-  // A call was let in: Verdict::caller.
+  // Called when a call was let in; `caller` is Verdict::caller.
   void admit(const std::string& caller, TimePoint now);
 
   bool admitted() const { return admitted_; }
-  // Nothing more is to be read from the client before then.
+  // Earliest time at which the client may be read again.
   TimePoint not_before() const { return not_before_; }
 
  private:
@@ -30,10 +30,10 @@ class Spending {
 
   Sources& sources_;
   const std::shared_ptr<Source> source_;
-  std::string caller_;                        // the last one who was let in by a name
-  std::shared_ptr<Source> caller_elsewhere_;  // with all connections of this caller; none without a name
+  std::string caller_;                        // the last admitted caller with a name
+  std::shared_ptr<Source> caller_elsewhere_;  // budget over all connections of this caller; null without a name
   Budget own_, spared_;
-  Budget stranger_;  // as long as nobody was let in
+  Budget stranger_;  // until a call is let in
   bool admitted_ = false;
   TimePoint not_before_{};
 };

@@ -21,7 +21,7 @@ namespace ssl = boost::asio::ssl;
 constexpr Duration kLookAgain = std::chrono::seconds(1);
 constexpr std::size_t kNameBytesMax = 64;  // X.520's upper bound of a common name
 
-// HTTP/2 is chosen by ALPN (RFC 9113, 3.2).
+// Selects HTTP/2 by ALPN (RFC 9113, 3.2).
 int choose_h2(SSL*, const unsigned char** chosen, unsigned char* size, const unsigned char* offered,
               unsigned offered_size, void*) {
   static constexpr unsigned char kH2[] = {2, 'h', '2'};
@@ -31,7 +31,7 @@ int choose_h2(SSL*, const unsigned char** chosen, unsigned char* size, const uns
   return found == OPENSSL_NPN_NEGOTIATED ? SSL_TLSEXT_ERR_OK : SSL_TLSEXT_ERR_ALERT_FATAL;
 }
 
-// The caller's, if its certificate has just one that will do.
+// Returns the caller's name if the certificate has exactly one usable common name.
 std::optional<std::string> common_name(SSL* session) {
   const std::unique_ptr<X509, decltype(&::X509_free)> certificate(::SSL_get1_peer_certificate(session), ::X509_free);
   if (!certificate) return std::nullopt;
@@ -114,7 +114,8 @@ class TlsWire final : public Wire {
 TlsFiles::TlsFiles(server::NetworkConfig network) : network_(std::move(network)) {}
 TlsFiles::~TlsFiles() = default;
 
-// A key and a certificate that do not belong together are half of a replacement: what was good before is kept.
+// Returns the newest usable files. A key and a certificate that do not match are a replacement in progress; the
+// previous pair stays in use.
 std::shared_ptr<TlsFiles::Context> TlsFiles::newest() {
   const TimePoint now = monotonic_now();
   if (context_ && now - looked_ < kLookAgain) return context_;

@@ -1,4 +1,4 @@
-// TLS 1.3 for those who call from other machines. It ends here, so that the front sees their frames.
+// TLS 1.3 for callers from other machines. It ends here, so that the front sees their frames.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@
 
 namespace axisgate::front {
 
-// The daemon's certificate and who signs those of callers, read again when the files have changed; open connections
-// keep what they began with. On one thread.
+// The daemon's certificate and the authority of the callers' certificates, read again when the files have changed. Open
+// connections keep their initial files. Use on one thread.
 class TlsFiles {
  public:
   explicit TlsFiles(server::NetworkConfig network);
   ~TlsFiles();
 
-  // A wire whose handshake is still to come, with its caller's name by then: "cert alice", or nothing without a
-  // certificate or a usable name. Once; no handler call after close(). `done` receives the error of a failed one.
+  // Returns a wire whose handshake is still to come. `done` is called once: with the caller's name, "cert alice"
+  // (nullopt without a certificate or a usable name), or with the error of a failed handshake.
   using OnHandshake = std::function<void(const Wire::Error& error, std::optional<std::string> name)>;
   std::unique_ptr<Wire> begin(Socket socket, OnHandshake done);
 
@@ -30,7 +30,7 @@ class TlsFiles {
 
   const server::NetworkConfig network_;
   std::shared_ptr<Context> context_;
-  std::string seen_;  // of the files: when they were changed
+  std::string seen_;  // times at which the files were changed
   TimePoint looked_{};
 };
 

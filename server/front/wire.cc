@@ -28,7 +28,7 @@ class PlainWire final : public Wire {
   }
   void close() override {
     Error ignored;
-    // The reserve holds another descriptor of it.
+    // The reserve keeps another descriptor of the socket.
     socket_.shutdown(Socket::shutdown_both, ignored);
     socket_.close(ignored);
   }

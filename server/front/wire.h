@@ -9,7 +9,7 @@
 
 namespace axisgate::front {
 
-// On one strand. A handler that has not been called when the wire is closed is called with an error.
+// Used on one strand. A handler that has not been called when the wire is closed is called with an error.
 class Wire {
  public:
   using Error = boost::system::error_code;
@@ -19,7 +19,7 @@ class Wire {
 
   // Reads at most kPiece bytes, at least one without an error. A plain wire keeps no buffer while it waits.
   virtual void read_some(OnBytes handler) = 0;
-  // All of it; the bytes outlive the call of the handler.
+  // Writes all bytes, which must stay valid until the handler is called.
   virtual void write(boost::asio::const_buffer bytes, std::function<void(Error)> handler) = 0;
   virtual void close() = 0;
 

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 using std::chrono::microseconds;
 
-// Since 1970, as only the calendar outlives a boot; 0: never.
+// Converts a time to microseconds since 1970, because only calendar time is valid after a reboot. 0: never.
 std::int64_t time_of(TimePoint time) {
   return std::chrono::duration_cast<microseconds>(to_wall(time).time_since_epoch()).count();
 }
@@ -69,7 +69,8 @@ std::vector<stage::ExecuteEvent> events_of(const Json& json) {
 
 std::vector<std::uint64_t> numbers_of(const Json& json) { return json.get<std::vector<std::uint64_t>>(); }
 
-// Of the part of that name: who may write the file could have written anything.
+// Returns the named part of an answer, or nullopt if the part is absent or malformed: anybody with write access to the
+// file could have changed it.
 template <class Value>
 std::optional<Value> part(std::string_view answer, const char* name, Value (*of)(const Json&)) {
   try {

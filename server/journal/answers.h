@@ -1,4 +1,4 @@
-// What a request was answered, as text that outlives the daemon.
+// Text form of a request's answer, which outlives the daemon.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,25 @@
 
 namespace axisgate::server::journal {
 
-// With names and messages, so that it is for the memory of requests, and not for the chain.
+// The text contains names and messages, so it belongs in the memory of requests and not in the chain.
 std::string answer_of(const stage::Motion& motion);
 std::string answer_of(const Problem& problem);
 std::string answer_of(const std::vector<stage::ExecuteEvent>& events);
-// Of jobs by their numbers.
+// Answers with the numbers of the jobs.
 std::string answer_of(const std::vector<std::uint64_t>& jobs);
-// Of one that was done, and answered nothing.
+// Answer of a request that succeeded and returns no data.
 std::string answer_done();
 
-// Whether it is decided before anything is sent.
+// Reports whether a failure with this reason is decided before anything is sent.
 bool is_refusal(Reason reason);
 
-// Nothing, where the text is no motion.
+// Returns nullopt if the text is not a motion.
 std::optional<stage::Motion> motion_in(std::string_view answer);
-// None, where the text has none.
+// Returns an empty vector if the text has no events.
 std::vector<stage::ExecuteEvent> events_in(std::string_view answer);
-// None, where the text has none.
+// Returns an empty vector if the text has no jobs.
 std::vector<std::uint64_t> jobs_in(std::string_view answer);
-// Nothing, where the text is no problem.
+// Returns nullopt if the text is not a problem.
 std::optional<Problem> problem_in(std::string_view answer);
 
 }  // namespace axisgate::server::journal

@@ -1,4 +1,4 @@
-// How entries say what they say: JSON.
+// JSON bodies of entries.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace axisgate::server::journal {
 
-// What came from a device may be no UTF-8: each such byte becomes U+FFFD.
+// Replaces each byte that is not valid UTF-8 with U+FFFD: text from a device may contain any bytes.
 std::string json_text(const nlohmann::json& json);
 
 nlohmann::json axes_of(stage::AxisSet axes);
 
-// An entry before it has its device and time.
+// A Noted is an entry that has no device and no time yet.
 struct Noted {
   EntryKind kind = EntryKind::daemon_started;
   nlohmann::json body{};

@@ -13,7 +13,7 @@ void append(std::string& bytes, std::int64_t number) {
   }
 }
 
-// With its length, so that no two rows are the same bytes.
+// Appends the length before the text, so that two different rows never give the same bytes.
 void append(std::string& bytes, std::string_view text) {
   append(bytes, static_cast<std::int64_t>(text.size()));
   bytes += text;

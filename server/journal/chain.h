@@ -1,4 +1,4 @@
-// The chain of hashes that shows whether a row was changed, removed, added or put elsewhere.
+// Hash chain that shows whether a row was changed, removed, added or moved.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace axisgate::server::journal {
 
-// The columns of a row as they are stored.
+// Columns of a row as they are stored.
 struct Row {
   std::int64_t number = 0;
   std::int64_t time_us = 0;       // since 1970
@@ -20,7 +20,7 @@ struct Row {
   std::string_view body;
 };
 
-// SHA-256. Of the first row: `before` is that of the journal's epoch.
+// Returns the SHA-256 hash of a row. For the first row `before` is the hash of the journal's epoch.
 Hash hash_of(const Hash& before, const Row& row);
 Hash hash_of_epoch(std::string_view epoch);
 

@@ -1,4 +1,4 @@
-// Which entries are wanted, and what that is in SQL.
+// Filter of journal entries, and its translation to SQL.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace axisgate::server::journal {
 
-// Which entries are wanted. All, where nothing is said.
+// A Filter selects entries. A member with its default value restricts nothing.
 struct Filter {
   std::optional<WallTime> from{}, to{};  // from <= time < to
   std::string device{}, who{};
-  std::string identity{};  // only entries by callers of this identity (access/access.h), and by nobody
+  std::string identity{};  // only entries by callers of this identity (access/access.h), and entries without a caller
   std::uint64_t motion = 0;
   std::vector<EntryKind> kinds{};
-  std::int64_t before = 0;  // numbers below this one: where the page before ended
-  std::int64_t after = 0;   // numbers above this one
-  int axis = 0;             // that the body names; 0: all
-  std::string outcome{};    // of an end of a motion: "FAILED"; empty: all entries
-  std::string text{};       // a part of the body; capital and small letters differ
+  std::int64_t before = 0;  // only numbers below this one: the end of the previous page
+  std::int64_t after = 0;   // only numbers above this one
+  int axis = 0;             // an axis that the body names; 0: all entries
+  std::string outcome{};    // outcome of a motion, such as "FAILED"; empty: all entries
+  std::string text{};       // text that the body contains; case-sensitive
   bool oldest_first = false;
 };
 
-// SQL: the body of an entry. A file that was changed may have text there that is no JSON.
+// SQL for the body of an entry. A file that was changed may have text there that is not JSON.
 inline constexpr std::string_view kJsonBody = "iif(json_valid(body), body, '{}')";
 
-// SQL: the entry is by a caller of one identity, which is bound to it, or by nobody.
+// SQL condition: the entry has no caller, or its caller has the identity that is bound to the parameter.
 inline constexpr std::string_view kOfIdentity =
     "(person = 0 OR person IN (SELECT id FROM person WHERE identity_of(name) = ?))";
 
-// The conditions of a filter, each with what is bound to it.
+// SQL conditions of a filter, with the values that are bound to their parameters.
 class Conditions {
  public:
   void add(std::string_view condition, WallTime time) {

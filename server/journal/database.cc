@@ -11,7 +11,7 @@
 namespace axisgate::server::journal {
 namespace {
 
-// A reader holds the writer up for moments only.
+// Limit for waiting on a lock; a reader blocks the writer only for moments.
 constexpr int kBusyMilliseconds = 2000;
 
 tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
@@ -21,7 +21,8 @@ tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
               "look at the disk's free space and rights");
 }
 
-// SQLite knows the path of a database only once it is open, and says itself only that it could not open one.
+// Describes why a file could not be opened. SQLite knows the path of a database only after opening it, and its message
+// says only that it could not open a file.
 Problem unopened(sqlite3* database, const std::string& path) {
   const int error = sqlite3_system_errno(database);
   return {.reason = Reason::internal,
@@ -47,7 +48,8 @@ sqlite3_stmt* KeptStatements::take(std::string_view sql) {
   return found == kept_.end() ? nullptr : kept_.extract(found).mapped();
 }
 
-// A statement that is not reset would hold back the log, and what is bound may be somebody's name.
+// Resets the statement before keeping it: a statement that is not reset would block the emptying of the log, and its
+// bound values may contain somebody's name.
 void KeptStatements::give_back(sqlite3_stmt* statement) {
   sqlite3_reset(statement);
   sqlite3_clear_bindings(statement);
@@ -93,7 +95,7 @@ std::string_view Statement::bytes(int column) const {
 
 tl::expected<Database, Unopened> Database::open(const std::string& path, Access access, const char* vfs) {
   if (access == Access::write && vfs == nullptr) {
-    // SQLite would follow a link, and make a file that others may read.
+    // SQLite would follow a link, and would create a file that others may read.
     const Result<Descriptor> file = open_state_file(path, O_RDWR | O_CREAT);
     if (!file) return tl::unexpected(Unopened{file.error()});
   }
@@ -107,8 +109,8 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   sqlite3_create_function_v2(opened, "identity_of", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, identity_function,
                              nullptr, nullptr, nullptr);
   if (access == Access::read) return database;
-  // In WAL mode only FULL syncs at each commit. Without secure_delete the bytes of what was deleted stay in the file.
-  // What is appended touches few pages, so half a MiB of them is enough.
+  // In WAL mode only FULL syncs at each commit. Without secure_delete the bytes of deleted rows stay in the file. An
+  // append touches few pages, so half a MiB of cache is enough.
   constexpr const char* kPragmas =
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON; PRAGMA cache_size = -512;";
   if (auto set = database.run(kPragmas); !set) {

@@ -1,4 +1,4 @@
-// SQLite, as far as the journal needs it.
+// The part of SQLite that the journal needs.
 #pragma once
 
 #include <sqlite3.h>
@@ -16,10 +16,11 @@
 
 namespace axisgate::server::journal {
 
-// The statements of one connection that nobody uses now: to compile one takes longer than to run it. Not thread safe.
+// Compiled statements of one connection that are not in use: compiling a statement takes longer than running it. Not
+// thread safe.
 class KeptStatements {
  public:
-  // As many as an append runs, and some more.
+  // Slightly more than the number of statements that an append runs.
   static constexpr std::size_t kMost = 32;
 
   KeptStatements() = default;
@@ -27,7 +28,7 @@ class KeptStatements {
   KeptStatements(const KeptStatements&) = delete;
   KeptStatements& operator=(const KeptStatements&) = delete;
 
-  // Null: none of this text is kept.
+  // Returns null if no statement with this text is kept.
   sqlite3_stmt* take(std::string_view sql);
   void give_back(sqlite3_stmt* statement);
 
@@ -35,24 +36,24 @@ class KeptStatements {
   std::map<std::string, sqlite3_stmt*, std::less<>> kept_;
 };
 
-// One query of one Database, which outlives it. Not thread safe.
+// One query of a Database, which must outlive it. Not thread safe.
 class Statement {
  public:
-  // Counts from 1, as SQLite's parameters. What is bound stays until it is bound again. Times are microseconds since
+  // Parameters count from 1, as in SQLite. A bound value stays until another is bound. Times are microseconds since
   // 1970.
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, std::string_view text);
   Statement& bind(int parameter, WallTime time);
   Statement& bind_bytes(int parameter, std::string_view bytes);
 
-  // Whether there is a row. internal, with SQLite's own words.
+  // Reports whether there is another row. Fails with internal and SQLite's own message.
   Result<bool> step();
-  // Of the row; columns count from 0. The views hold until the next step().
+  // Columns of the current row count from 0. The views stay valid until the next step().
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
   std::string_view bytes(int column) const;
   WallTime time(int column) const { return WallTime(std::chrono::microseconds(integer(column))); }
 
-  // Ready to run again.
+  // Makes the statement ready to run again.
   void reset() { sqlite3_reset(statement_.get()); }
 
  private:
@@ -66,30 +67,31 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, GiveBack> statement_;
 };
 
-// Why a file could not be opened.
+// Reason why a file could not be opened.
 struct Unopened {
-  Problem problem;       // internal, with SQLite's own words
-  bool damaged = false;  // what is there is no database, or no whole one
+  Problem problem;       // internal, with SQLite's own message
+  bool damaged = false;  // the file is not a database, or is incomplete
 };
 
-// One connection to a file. Not thread safe; several connections to one file are.
+// One connection to a file. Not thread safe, but several connections to one file may be used at the same time.
 class Database {
  public:
   enum class Access { write, read };
 
-  // With Access::write, made where it is missing: for the daemon's user alone, and each commit is on the disk when it
-  // has returned. `vfs`: the name of a registered sqlite3_vfs that has the file; null: the system's.
+  // Opens a file. With Access::write, a missing file is created with access for the daemon's user alone, and each
+  // commit is on the disk when it returns. `vfs`: name of a registered sqlite3_vfs that contains the file; null: the
+  // system's.
   static tl::expected<Database, Unopened> open(const std::string& path, Access access, const char* vfs = nullptr);
 
-  // Of a statement that answers nothing, or several of them.
+  // Runs one or several statements that return no rows.
   Result<void> run(const char* sql);
-  // SQL has one function more: identity_of(TEXT), as server::identity_of().
+  // SQL has an additional function, identity_of(TEXT), which is server::identity_of().
   Result<Statement> prepare(std::string_view sql);
-  // Leaves nothing in the file `-wal`, which has all that was written lately. Does not wait: internal where somebody
-  // reads meanwhile.
+  // Empties the file `-wal`, which contains everything that was written recently. Does not wait: fails with internal if
+  // somebody is reading.
   Result<void> empty_log();
 
-  // Whether that is why the last of these failed.
+  // Reports whether a damaged file made the last call fail.
   bool is_damaged() const;
 
  private:
@@ -99,7 +101,8 @@ class Database {
   explicit Database(sqlite3* database) : database_(database) {}
 
   std::unique_ptr<sqlite3, Close> database_;
-  std::unique_ptr<KeptStatements> kept_ = std::make_unique<KeptStatements>();  // its place stays when this is moved
+  // Keeps its address when the database is moved.
+  std::unique_ptr<KeptStatements> kept_ = std::make_unique<KeptStatements>();
 };
 
 }  // namespace axisgate::server::journal

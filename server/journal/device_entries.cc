@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// [line, answer, microseconds since the motion's request]; [line, answer] of no motion.
+// Each line is [line, answer, microseconds since the motion's request], or [line, answer] without a motion.
 Json lines_json(const std::vector<ExchangedLines::Line>& lines) {
   Json list = Json::array();
   for (const ExchangedLines::Line& line : lines) {
@@ -25,7 +25,7 @@ Json lines_json(const std::vector<ExchangedLines::Line>& lines) {
   return list;
 }
 
-// Messages may name persons, so the journal has the reason alone.
+// Omits messages, which may name persons; the journal has the reason alone.
 Json results_of(const stage::Motion& motion) {
   Json results = Json::array();
   for (const stage::AxisResult& one : motion.results) {
@@ -42,7 +42,8 @@ EntryKind kind_of(const stage::Motion& motion) {
   return motion.state == stage::MotionState::running ? EntryKind::motion_started : EntryKind::motion_requested;
 }
 
-// Its request has an entry that says so. Of Execute that depends on the reason, since it need not move anything.
+// Reports whether the request was refused: the refusal then has an entry. An Execute that wrote nothing counts as
+// refused only for some reasons, since it need not move anything.
 bool is_refused(const stage::Motion& motion) {
   if (motion.written) return false;
   return motion.kind != stage::MotionKind::execute || (motion.problem && is_refusal(motion.problem->reason));
@@ -72,7 +73,7 @@ std::optional<Noted> said(const stage::StopRequested& stop) {
   return Noted{EntryKind::stop_requested, std::move(body), stop.who};
 }
 
-// A replaced stop ends with the one that replaced it.
+// Returns nullopt for a replaced stop, which ends together with its replacement.
 std::optional<Noted> said(const stage::StopChanged& change) {
   const stage::Stop& stop = change.stop;
   if (is_open(stop.state) || stop.state == stage::StopState::replaced) return std::nullopt;
@@ -138,7 +139,8 @@ std::optional<Noted> said(const Other&) {
 
 }  // namespace
 
-// A motion of which no line was written is refused where its start is answered.
+// Returns nullopt at the end of a motion of which no line was written: its request is refused when its start is
+// answered.
 std::optional<RequestChange> DeviceEntries::change_of(const stage::Event& event) {
   const auto* change = std::get_if<stage::MotionChanged>(&event);
   if (change == nullptr || change->motion.request_id.empty()) return std::nullopt;

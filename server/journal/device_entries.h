@@ -1,4 +1,4 @@
-// What the journal keeps of a device's events.
+// Journal entries for the events of a device.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,18 @@
 
 namespace axisgate::server::journal {
 
-// On the device's strand. Never waits.
+// Runs on the device's strand and never waits.
 class DeviceEntries {
  public:
-  // Both outlive it. `journal` may be null: nothing is kept then, and requests are remembered in memory only.
+  // The references must outlive this object. If `journal` is null, no entries are written, and requests are remembered
+  // in memory only.
   DeviceEntries(std::string device, Journal* journal, RequestMemory& requests)
       : device_(std::move(device)), journal_(journal), requests_(requests) {}
 
   void on_event(const stage::Event& event, TimePoint now);
 
  private:
-  // What becomes of the request that the motion is of.
+  // Returns the new state of the request that started the motion; nullopt if it is unchanged.
   std::optional<RequestChange> change_of(const stage::Event& event);
 
   const std::string device_;

@@ -1,4 +1,4 @@
-// What the journal has of one thing that happened.
+// One entry of the journal.
 #pragma once
 
 #include <array>
@@ -11,46 +11,46 @@
 
 namespace axisgate::server::journal {
 
-// The numbers are in the file: they never change.
+// The numbers are in the file and never change.
 enum class EntryKind {
   daemon_started = 1,
   daemon_ended = 2,
   entries_left_out = 3,
-  journal_failed = 4,   // the disk refused it, from then on until this entry
-  entries_dropped = 5,  // by age or size, up to a number
+  journal_failed = 4,   // the disk has refused entries from the first failure until this entry
+  entries_dropped = 5,  // old entries were dropped, by age or size, up to a number
   motion_requested = 10,
   motion_started = 11,
   motion_ended = 12,
   stop_requested = 20,
-  stop_ended = 21,         // it was seen to be obeyed, or was withdrawn
-  emergency_latched = 22,  // nothing moves until emergency_cleared
+  stop_ended = 21,         // was confirmed or withdrawn
+  emergency_latched = 22,  // motion is refused until emergency_cleared
   emergency_cleared = 23,
   link_changed = 30,
   barrier_entered = 31,
   foreign_motion = 32,
-  condition_changed = 33,  // an emergency stop, a limit sensor, a motor, the mode: at the stage itself
+  condition_changed = 33,  // an emergency stop, a limit sensor, a motor or the mode, at the stage itself
   switches_changed = 40,
-  request_made = 50,     // what somebody wants to change or move; on the disk before it is done
+  request_made = 50,     // a caller's wish to change or move something; on the disk before it is carried out
   request_refused = 51,  // nothing was sent
-  request_ended = 52,    // of one that is no motion
-  lines_exchanged = 60,  // of no motion, or more of one than its start and end have
+  request_ended = 52,    // end of a request that is not a motion
+  lines_exchanged = 60,  // lines without a motion, or lines that do not fit into its start and end
   lease_granted = 70,
   lease_ended = 71,
-  latched = 72,  // the caller, by a stop of somebody else
+  latched = 72,  // the caller, by another caller's stop
   rearmed = 73,
   person_erased = 80,  // the name of a caller
-  job_changed = 90,    // of a mill: it was queued, has another state, or was moved in the queue
+  job_changed = 90,    // a mill's job was queued, changed its state or was moved in the queue
 };
-// "motion ended" and the like; "kind 77" of a number that this program does not know.
+// Returns a name such as "motion ended", or "kind 77" for a number that this program does not know.
 std::string name(EntryKind kind);
 
 struct Entry {
   EntryKind kind = EntryKind::daemon_started;
   WallTime time{};
-  TimePoint boot_time{};     // since the machine's boot: a clock that is set does not change it
-  std::string device{};      // empty: the daemon's own
-  std::string who{};         // the caller; empty: nobody
-  std::uint64_t motion = 0;  // its number; 0: none
+  TimePoint boot_time{};     // since the machine's boot; setting the calendar clock does not affect it
+  std::string device{};      // empty: the daemon itself
+  std::string who{};         // the caller; empty: none
+  std::uint64_t motion = 0;  // number of the motion; 0: none
   std::string body{};        // JSON, without names of persons
 };
 

@@ -8,7 +8,7 @@ std::optional<ExchangedLines::Lines> ExchangedLines::on_event(const stage::Event
   return std::visit([&](const auto& what) { return note(what, now); }, event);
 }
 
-// A stop that is written in a barrier has no end: the next line closes it. What belongs to no exchange is a probe.
+// A stop that is written in a barrier has no end: the next line closes it. Bytes without an exchange are probes.
 std::optional<ExchangedLines::Lines> ExchangedLines::note(const stage::BytesWritten& written, TimePoint now) {
   if (written.exchange == 0 || (open_ && open_->exchange == written.exchange)) return std::nullopt;
   auto unanswered = close({});
@@ -37,7 +37,7 @@ std::optional<ExchangedLines::Lines> ExchangedLines::note(const stage::LineLearn
   return learned.what == stage::LineLearned::What::barrier_passed ? close({}) : std::nullopt;
 }
 
-// It is gathered for its motion while that has not ended.
+// Adds the line to its motion if the motion has not ended.
 std::optional<ExchangedLines::Lines> ExchangedLines::close(std::optional<std::string> answer) {
   if (!open_) return std::nullopt;
   Written done = *std::exchange(open_, {});

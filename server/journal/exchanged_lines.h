@@ -1,4 +1,4 @@
-// The lines that a device's controller is sent, with their answers, gathered for the journal.
+// Lines sent to a controller, with their answers, collected for the journal.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,17 @@
 
 namespace axisgate::server::journal {
 
-// On the device's strand.
+// Runs on the device's strand.
 class ExchangedLines {
  public:
-  // Of one motion so many are gathered until its start or end is written.
+  // Maximum number of lines of one motion that are collected before they are written.
   static constexpr std::size_t kGatheredMax = 64;
 
   struct Line {
     std::string text;                   // without CR LF
-    std::optional<std::string> answer;  // or the name of an Outcome, where no answer came; nothing: not known
-    std::optional<Duration> at;         // when it was written, since the request of its motion; nothing: it has none
+    std::optional<std::string> answer;  // reply, or the name of an Outcome if no reply came; nullopt if unknown
+    // Time of writing, counted from the motion's request; nullopt if the line has no motion.
+    std::optional<Duration> at;
   };
   struct Lines {
     stage::MotionId motion = 0;  // 0: none
@@ -29,12 +30,12 @@ class ExchangedLines {
     std::vector<Line> lines;
   };
 
-  // What must have an entry of its own now: a line of no motion, unless it is a question, and what a motion has more
-  // than kGatheredMax of.
+  // Returns the lines that need an entry of their own now: a line without a motion, unless it is a question, or the
+  // lines of a motion that has reached kGatheredMax.
   std::optional<Lines> on_event(const stage::Event& event, TimePoint now);
 
-  // What was gathered since the last call. Of a motion that has ended it is the last: a line without an answer is
-  // among them.
+  // Returns the lines collected since the last call. For a motion that has ended, this call is the last, and its result
+  // includes a line whose answer has not come.
   std::vector<Line> take(const stage::Motion& motion);
 
  private:
@@ -42,7 +43,7 @@ class ExchangedLines {
     std::uint64_t exchange = 0;
     TimePoint at{};
     bool question = false;
-    Lines lines;  // this one
+    Lines lines;  // this line alone
   };
   struct Gathered {
     TimePoint requested{};
@@ -62,8 +63,8 @@ class ExchangedLines {
   }
   std::optional<Lines> close(std::optional<std::string> answer);
 
-  std::optional<Written> open_;                  // its answer has not come
-  std::map<stage::MotionId, Gathered> motions_;  // those that have not ended
+  std::optional<Written> open_;                  // line whose answer has not come
+  std::map<stage::MotionId, Gathered> motions_;  // motions that have not ended
 };
 
 }  // namespace axisgate::server::journal

@@ -12,7 +12,7 @@
 namespace axisgate::server::journal {
 namespace {
 
-// Null where somebody has changed the row, so that it is no fact.
+// Returns null if somebody has changed the row and it is no longer a fact.
 FactPointer fact_of(const Statement& row) {
   auto record = fact_in(row.bytes(4));
   if (!record) return nullptr;
@@ -27,7 +27,7 @@ FactPointer fact_of(const Statement& row) {
 
 Result<void> FactTable::change(const FactChange& change) {
   if (change.added.empty()) return {};
-  // A row that somebody has put into its place must not keep the journal from writing.
+  // Replaces existing rows: a row that somebody inserted with this revision must not keep the journal from writing.
   auto insert = database_.prepare("INSERT OR REPLACE INTO fact VALUES(?, ?, ?, ?, ?)");
   if (!insert) return tl::unexpected(insert.error());
   for (const FactPointer& record : change.added) {
@@ -63,7 +63,7 @@ Result<std::vector<FactPointer>> FactTable::read() {
   }
 }
 
-// Of all that may have been given; 0: none.
+// Highest revision that may have been given to an event; 0: none.
 Result<std::uint64_t> FactTable::last_revision() {
   auto last = database_.prepare(
       "SELECT max(coalesce((SELECT max(revision) FROM fact), 0), "

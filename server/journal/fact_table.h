@@ -1,5 +1,5 @@
-// The newest facts in the journal's file, so that readers of events resume over a restart. They are outside the chain,
-// since they are forgotten again.
+// Newest facts in the journal's file, so that readers of events can resume after a restart. They are outside the chain,
+// because old facts are deleted.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace axisgate::server::journal {
 
-// What is written together.
+// Changes that are written together.
 struct FactChange {
-  std::deque<FactPointer> added{};  // by revision
-  std::uint64_t oldest = 0;         // those below it are forgotten
+  std::deque<FactPointer> added{};  // ordered by revision
+  std::uint64_t oldest = 0;         // facts with lower revisions are deleted
 };
 
-// Of one Database, which outlives it. Not thread safe.
+// Facts in a Database, which must outlive this object. Not thread safe.
 class FactTable {
  public:
   static constexpr const char* kMake = R"(
@@ -26,18 +26,19 @@ CREATE TABLE fact(
   revision INTEGER PRIMARY KEY, time_us INTEGER NOT NULL, run TEXT NOT NULL, device TEXT NOT NULL,
   fact TEXT NOT NULL) STRICT;
 )";
-  // So many revisions are left out after an unclean end, because facts that were published last may not have been
-  // written. A path with segments of 60 ms has 50 facts a second: the disk would have to refuse them for half an hour
-  // before more were lost. Even then `run` distinguishes those that were given twice.
+  // Number of revisions that are skipped after an unclean end, because the last published facts may not have been
+  // written. A path with segments of 60 ms has 50 facts a second, so the disk would have to refuse them for half an
+  // hour before more were lost. Even then `run` distinguishes revisions that were given twice.
   static constexpr std::uint64_t kUnwrittenMost = 100'000;
 
   explicit FactTable(Database& database) : database_(database) {}
 
   Result<void> change(const FactChange& change);
-  // The facts of earlier runs, and the first revision of a new one. That is on the disk when it returns, so that no
-  // later run begins with the same.
+  // Returns the facts of earlier runs, and the first revision of the new run. The first revision is on the disk when
+  // this returns, so no later run begins with it again.
   Result<FactsBefore> begin(bool after_unclean_end);
-  // Within a transaction, before PersonTable::erase(): the name of that person, wherever a text of a fact ends with it.
+  // Replaces the person's name wherever a text of a fact ends with it. Call within a transaction, before
+  // PersonTable::erase().
   Result<void> erase(std::int64_t person);
 
  private:

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::json;
 using std::chrono::nanoseconds;
 
-// Times in a fact count by its clock, so they are written as they are.
+// Writes a time unchanged: times in a fact are relative to the fact's own clock.
 std::int64_t nanos_of(TimePoint time) { return time.time_since_epoch().count(); }
 TimePoint time_of(const Json& json) { return TimePoint(nanoseconds(json.get<std::int64_t>())); }
 
@@ -28,7 +28,7 @@ stage::AxisSet axes_in(const Json& list) {
   return axes;
 }
 
-// How one alternative of Fact is written and read. The numbers of enumerations are in the file.
+// Form writes and reads one alternative of Fact. The numbers of enumerations are in the file.
 template <class What>
 struct Form;
 
@@ -132,7 +132,7 @@ struct Form<stage::StopChanged> {
             {"withdrawn_by", stop.withdrawn_by},
             {"came_to", std::move(places)}};
   }
-  // Its times are those since it was requested.
+  // Restores the times relative to the request.
   static stage::StopChanged read(const Json& json) {
     stage::Stop stop;
     stop.id = json.at("id");

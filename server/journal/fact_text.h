@@ -1,4 +1,4 @@
-// A fact as text, so that it outlives the daemon.
+// Text form of a fact, which outlives the daemon.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace axisgate::server::journal {
 
-// Its fact and its clock. With names and messages, so that it is not for the chain.
+// Writes the fact and its clock. The text contains names and messages, so it does not belong in the chain.
 std::string text_of(const FactRecord& record);
 
-// With fact and clock alone. Nothing, where the text is no fact.
+// Reads the fact and its clock alone. Returns nullopt if the text is not a fact.
 std::optional<FactRecord> fact_in(std::string_view text);
 
 }  // namespace axisgate::server::journal

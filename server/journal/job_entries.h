@@ -1,4 +1,4 @@
-// What the journal keeps of the jobs of a mill.
+// Journal entries for the jobs of a mill.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace axisgate::server::journal {
 
-// Without the job's name, which is text of a person. `by`: who requested it; empty: nobody. `why`: for people; may be
-// empty.
+// Omits the job's name, which is a person's text. `by`: the caller who requested the change; empty: none. `why`: reason
+// as text for people; may be empty.
 Entry entry_of(const rml1::Job& job, std::string_view by, std::string_view why, std::string device, TimePoint now);
 
 }  // namespace axisgate::server::journal

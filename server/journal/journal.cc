@@ -19,8 +19,8 @@ namespace {
 
 constexpr auto kDropPause = std::chrono::minutes(10);
 constexpr auto kRetry = std::chrono::seconds(1);
-constexpr auto kCatchingUp = std::chrono::seconds(1);  // a disk that hangs keeps no reader longer
-constexpr auto kErasing = std::chrono::seconds(10);    // nor who erases, so that the daemon can end
+constexpr auto kCatchingUp = std::chrono::seconds(1);  // longest time that a reader waits for a disk that hangs
+constexpr auto kErasing = std::chrono::seconds(10);    // longest time that erasing waits, so that the daemon can end
 
 Entry own_entry(EntryKind kind, std::string body) {
   return {
@@ -33,7 +33,7 @@ Entry left_out(std::uint64_t count) {
 
 Entry journal_failed() { return own_entry(EntryKind::journal_failed, "{}"); }
 
-// SQLite's own files beside it are worth nothing without it.
+// Moves SQLite's own files along, which are useless without the database.
 Result<void> move_aside(const std::string& path) {
   const auto stamp = std::chrono::system_clock::now().time_since_epoch() / std::chrono::seconds(1);
   const std::string kept = fmt::format("{}.damaged-{}", path, stamp);
@@ -193,7 +193,7 @@ void Journal::run() {
   }
 }
 
-// Nothing: the daemon ends, and all is written.
+// Returns an empty batch if the daemon is ending and everything is written.
 Journal::Batch Journal::wait_for_records() {
   std::unique_lock lock(mutex_);
   while (!ending_ && waiting_.empty() && facts_waiting_.added.empty()) wait_or_sum_up_refusals(lock);
@@ -216,7 +216,8 @@ void Journal::wait_or_sum_up_refusals(std::unique_lock<std::mutex>& lock) {
   for (Entry& entry : refusals_.due(monotonic_now())) put({std::move(entry)});
 }
 
-// One segment at a time, so that nobody waits long for it. What fails here fails in write(), too, and is said there.
+// Drops one segment at a time, so that no caller waits long for it. A failure here also occurs in write(), which
+// reports it.
 void Journal::drop_old() {
   const TimePoint now = monotonic_now();
   if (now < next_drop_) return;
@@ -249,7 +250,7 @@ bool Journal::write(Batch batch) {
   }
 }
 
-// Those who wait are refused, and what they wanted is not tried again.
+// Refuses the records that a caller waits for; they are not tried again.
 void Journal::note_failure(Batch& batch, const Problem& problem) {
   std::optional<Problem> refusal;
   std::vector<Waiting> refused;
@@ -267,12 +268,12 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
     failure_ = problem;
     refusal = unavailable();
     take_from(batch.records);
-    take_from(waiting_);  // they came while this batch was tried
+    take_from(waiting_);  // records that came while this batch was tried
   }
   for (const Waiting& one : refused) answer(one.done, tl::unexpected(*refusal));
 }
 
-// Where somebody reads, it is tried again after the next commit.
+// Tries again after the next commit if somebody is reading.
 Result<void> Journal::empty_log(const Batch& written) {
   const auto erases = [](const Waiting& one) { return one.record.erased_person != 0; };
   log_has_names_ = log_has_names_ || std::ranges::any_of(written.records, erases);

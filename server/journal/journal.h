@@ -1,4 +1,4 @@
-// The thread that writes the journal.
+// Journal, and the thread that writes it.
 #pragma once
 
 #include <condition_variable>
@@ -21,63 +21,66 @@ namespace axisgate::server::journal {
 // Thread safe. Entries that are appended while others are written are committed together.
 class Journal {
  public:
-  // A disk that takes longer for one commit hangs: commit() refuses then, until it has come back.
+  // Duration after which an unfinished commit counts as hanging: commit() then refuses until the commit has returned.
   static constexpr Duration kHangs = std::chrono::seconds(2);
-  // Beyond so many that wait for the disk, entries are left out, and the journal says how many.
+  // Maximum number of entries that wait for the disk. Further entries are left out, and the journal says how many.
   static constexpr std::size_t kWaitingMax = 10'000;
-  // So long facts wait for an entry, so that a path's many facts do not sync the disk for each of them.
+  // Time that facts wait for an entry, so that a path's many facts do not sync the disk one by one.
   static constexpr Duration kFactsWait = std::chrono::milliseconds(100);
 
-  // As Store::open(). A damaged file is moved aside, with a warning that names it, and a new one begins. `boot` names
-  // this boot of the machine; empty: not known.
+  // Opens the file like Store::open(). A damaged file is moved aside with an error in the log that names it, and a new
+  // file begins. `boot` names this boot of the machine; empty if unknown.
   static Result<std::unique_ptr<Journal>> open(const std::string& path, std::string_view boot = {},
                                                const StoreBounds& bounds = {});
-  // A journal whose file could not be opened, for as long as the daemon runs: a later opening would give the numbers of
-  // its motions and revisions a second time. It fails as on a disk that refuses, with `why`, and keeps nothing.
+  // Returns a journal whose file could not be opened and stays closed for as long as the daemon runs: opening it later
+  // would give the numbers of motions and revisions a second time. It fails with `why` like a journal on a disk that
+  // refuses, and keeps nothing.
   static std::unique_ptr<Journal> unopened(const std::string& path, const Problem& why);
-  // Writes what waits, if the disk takes it.
+  // Writes the waiting records if the disk accepts them.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Never waits for the disk. Where the disk refuses, it is tried again each second.
+  // Appends a record without waiting for the disk. If the disk refuses, writing is tried again each second.
   void append(Record record);
-  // A refused request of which nothing else is in the journal: within RefusalBudget it has an entry, beyond it is
-  // counted.
+  // Appends a refused request that has no other entry. A refusal within RefusalBudget gets its own entry; further ones
+  // are counted.
   void append_refusal(Entry refusal);
-  // The same as append(), for what must be on the disk before it is done: `done` is called once, from the journal's
-  // thread or from within this call. journal_unavailable, where the disk refuses it, so that it is not written later
-  // either. From a disk that hangs the answer comes late.
+  // Appends a record that must be on the disk before its request is carried out. `done` is called once, from the
+  // journal's thread or from within this call. Fails with journal_unavailable if the disk refuses; the record is not
+  // written later either. If the disk hangs, the answer comes late.
   using OnCommitted = std::function<void(Result<void>)>;
   void commit(Record record, OnCommitted done);
-  // Erases the name of a caller: it becomes erased_name(), and an entry by `by` says so. Nothing: no entry names this
-  // caller. journal_unavailable: the disk refuses it; or the name is erased, but stays in the file's log while another
-  // program reads the file. For threads that may wait, before answer_nobody(); nothing else should read meanwhile.
+  // Replaces the name of a caller with erased_name(), and adds an entry by `by` about it. Returns nullopt if no entry
+  // names this caller. Fails with journal_unavailable if the disk refuses, or if the name is erased but stays in the
+  // file's log because another program is reading the file. Call it from a thread that may wait, before
+  // answer_nobody(); no other reader should be active.
   Result<std::optional<NamedPerson>> erase(const std::string& name, const std::string& by);
-  // From now on nobody is answered any more. Before that goes which they would call.
+  // No callback runs after this returns. Call it before destroying what the callbacks use.
   void answer_nobody();
-  // A fact of the event bus: EventBus::Keep. Never waits; written with the next commit, or after kFactsWait. Where the
-  // disk refuses, the newest wait.
+  // Keeps a fact of the event bus: see EventBus::Keep. Never waits. The fact is written with the next commit, or after
+  // kFactsWait. If the disk refuses, the newest facts wait.
   void keep(FactPointer fact, std::uint64_t oldest);
-  // Why nothing is written now; nothing while the disk takes what comes.
+  // Returns why nothing can be written now; nullopt while the disk accepts records.
   std::optional<Problem> failure() const;
 
-  // How long the last commit took; while one takes longer than kHangs, how long it has taken.
+  // Duration of the last commit. While a commit takes longer than kHangs: its duration up to now.
   Duration last_commit() const;
 
   bool is_open() const { return store_.has_value(); }
 
-  // As the file had it when it was opened; empty if it was not.
+  // State of the file when it was opened; empty if it could not be opened.
   const std::string& epoch() const { return epoch_; }
   Duration boot_offset() const { return boot_offset_; }
   RequestsOnFile take_requests() { return std::exchange(requests_, {}); }
   FactsBefore take_facts() { return std::exchange(facts_, {}); }
-  bool after_unclean_end() const { return after_unclean_end_; }  // of the run before
+  bool after_unclean_end() const { return after_unclean_end_; }  // true if the previous run ended uncleanly
 
-  // Each with a connection of its own, for threads that may wait. What was appended before is found, unless the disk
-  // refuses it or is slow.
+  // Each call uses its own connection and may be called from threads that may wait. It finds everything that was
+  // appended before, unless the disk refuses or is slow.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit) const;
-  Result<std::vector<StoredEntry>> unfinished_motions() const;  // of the run before: before it is begun
+  // Motions of the previous run; call before the new run begins.
+  Result<std::vector<StoredEntry>> unfinished_motions() const;
   Result<std::uint64_t> last_motion(std::string_view device) const;
   Result<Verdict> verify(const std::optional<Head>& noted) const;
   Result<Head> head() const;
@@ -86,7 +89,7 @@ class Journal {
  private:
   struct Waiting {
     Record record;
-    OnCommitted done;  // empty: nobody waits
+    OnCommitted done;  // empty if nobody waits
   };
   struct Batch {
     std::vector<Waiting> records;
@@ -105,7 +108,7 @@ class Journal {
   Batch wait_for_records();
   void wait_or_sum_up_refusals(std::unique_lock<std::mutex>& lock);
   void put(Record record);  // under mutex_
-  // Until it is written; false where the daemon ends before.
+  // Tries until the batch is written. Returns false if the daemon ends before.
   bool write(Batch batch);
   void drop_old();
   Result<void> empty_log(const Batch& written);
@@ -114,10 +117,11 @@ class Journal {
   std::optional<Problem> unavailable() const;  // under mutex_
 
   const std::string path_;
-  std::optional<Store> store_;  // nullopt if the file could not be opened; of the thread, as are the next three
+  // nullopt if the file could not be opened; used by the thread, as are the next three members.
+  std::optional<Store> store_;
   StoreBounds bounds_;
   TimePoint next_drop_{};
-  bool log_has_names_ = false;  // that were erased
+  bool log_has_names_ = false;  // the file's log contains erased names
   std::string epoch_;
   Duration boot_offset_{};
   RequestsOnFile requests_;
@@ -133,7 +137,7 @@ class Journal {
   std::uint64_t left_out_ = 0;
   std::optional<Problem> failure_;
   bool ending_ = false;
-  std::mutex answering_;  // held while somebody is answered
+  std::mutex answering_;  // locked during callbacks
   bool silent_ = false;   // under answering_
   std::thread thread_;
 };

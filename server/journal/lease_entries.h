@@ -1,4 +1,4 @@
-// What the journal keeps of leases, latches and rearms.
+// Journal entries for leases, latches and rearms.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace axisgate::server::journal {
 
-// Without the purpose of a lease, which is text of a person.
+// Omits the purpose of a lease, which is a person's text.
 Entry entry_of(const LeaseEvent& event, std::string device, TimePoint now);
 
 }  // namespace axisgate::server::journal

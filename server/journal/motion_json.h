@@ -1,5 +1,5 @@
-// A motion and a problem as JSON, for texts that outlive the daemon. What reads it throws nlohmann::json::exception
-// where it is something else.
+// JSON form of motions and problems, for texts that outlive the daemon. Reading throws nlohmann::json::exception if the
+// JSON has another form.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace axisgate::server::journal {
 nlohmann::json json_of(const Problem& problem);
 Problem problem_of(const nlohmann::json& json);
 
-// Without its times: which clock they are written by depends on the text.
+// Omits the times: the text that contains the JSON decides by which clock they are written.
 nlohmann::json json_of(const stage::Motion& motion);
 stage::Motion motion_of(const nlohmann::json& json);
 

@@ -29,8 +29,8 @@ Result<std::optional<NamedPerson>> PersonTable::find(std::string_view name) {
   });
 }
 
-// SQLite leaves copies of a row in the pages among which it has moved it, so changing the row would not be enough. All
-// pages of a dropped table are overwritten (secure_delete in Database::open).
+// Rebuilds the table instead of changing the row, because SQLite leaves copies of a row in the pages between which it
+// was moved. All pages of a dropped table are overwritten (secure_delete in Database::open).
 Result<void> PersonTable::erase(std::int64_t number) {
   return database_.run(fmt::format("ALTER TABLE person RENAME TO person_before; {0}"
                                    "INSERT INTO person SELECT id, iif(id = {1}, '{2}', name) FROM person_before;"

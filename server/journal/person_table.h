@@ -1,4 +1,4 @@
-// The names of those who called, in the journal's file. They are outside the chain, so that a name can be erased.
+// Names of callers in the journal's file. They are outside the chain, so that a name can be erased.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,29 @@
 
 namespace axisgate::server::journal {
 
-// What the file has of a caller.
+// A caller's number, and how often the file refers to them.
 struct NamedPerson {
   std::int64_t number = 0;
-  std::int64_t entries = 0;   // by this caller
-  std::int64_t requests = 0;  // remembered ones (request_table.h) that have the name, by any caller
+  std::int64_t entries = 0;   // number of entries by this caller
+  std::int64_t requests = 0;  // remembered requests of any caller (request_table.h) that contain the name
 };
 
-// "erased 3": what takes the place of an erased name.
+// Returns the replacement for an erased name, such as "erased 3".
 std::string erased_name(std::int64_t number);
 
-// Of one Database, which outlives it. Not thread safe.
+// Names in a Database, which must outlive this object. Not thread safe.
 class PersonTable {
  public:
   static constexpr const char* kMake = "CREATE TABLE person(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;";
 
   explicit PersonTable(Database& database) : database_(database) {}
 
-  // Made with the first entry that names it. 0: nobody, of an empty name.
+  // Returns the caller's number, which is created with the first entry that names them. 0 for an empty name.
   Result<std::int64_t> number_of(std::string_view name);
-  // Nothing: no entry names this caller, or the name was erased.
+  // Returns nullopt if no entry names this caller, or if the name was erased.
   Result<std::optional<NamedPerson>> find(std::string_view name);
-  // Within a transaction. The name becomes erased_name(). The file has it no longer when its log has been emptied, too:
-  // Database::empty_log().
+  // Replaces the name with erased_name(). Call within a transaction. The bytes leave the file only when its log is
+  // emptied, too: Database::empty_log().
   Result<void> erase(std::int64_t number);
 
  private:

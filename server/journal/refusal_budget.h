@@ -1,4 +1,4 @@
-// How many refused requests have an entry of their own, so that a program that is refused in a loop does not shorten
+// Limit on refused requests that have their own entry, so that a program that is refused in a loop does not shorten
 // everybody's history.
 #pragma once
 
@@ -18,19 +18,21 @@ namespace axisgate::server::journal {
 // Not thread safe. `now` never decreases.
 class RefusalBudget {
  public:
-  // The first of one identity (access/identity_of) have entries, within a time that begins with the first of them.
+  // Number of refusals of one identity (access/identity_of) that have entries, within a period that begins with its
+  // first refusal.
   static constexpr std::int64_t kEntries = 60;
   static constexpr Duration kWithin = std::chrono::minutes(10);
-  // Of more identities at once, the time of the one that began first ends early.
+  // Maximum number of identities at once. A further identity ends the oldest period early.
   static constexpr std::size_t kIdentitiesMax = 1000;
 
-  // What is to be written now: the refusal, if it has an entry, after what due() says.
+  // Returns the entries to write now: those of due(), then the refusal if it has its own entry.
   std::vector<Entry> add(Entry refusal, TimePoint now);
-  // Of each identity whose time has passed, those without an entry: the last of them, with their `count`.
+  // Returns one entry for each identity whose period has passed: its last refusal, with the `count` of refusals without
+  // an entry.
   std::vector<Entry> due(TimePoint now);
-  // The same of all identities, whose times end.
+  // Ends the periods of all identities, and returns their entries like due().
   std::vector<Entry> rest();
-  // When due() may have something; nothing: not before the next add().
+  // Earliest time at which due() may return entries; nullopt: not before the next add().
   std::optional<TimePoint> next_due() const;
 
  private:

@@ -62,8 +62,8 @@ Result<void> RequestMemory::check_mark(std::string_view mark) const {
               "look at the stage and at `axisctl history`, then request it with a new id");
 }
 
-// Those that are over: the oldest, up to the first that must be kept. The number up to which all are forgotten; 0: no
-// more than before.
+// Forgets old requests that have ended, oldest first, up to the first that must be kept. Returns the number up to which
+// all requests are forgotten; 0 if nothing was forgotten.
 std::int64_t RequestMemory::forget_old(Duration lived) {
   const std::int64_t before = forgotten_;
   while (!by_number_.empty()) {

@@ -1,5 +1,5 @@
-// What became of requests, by the ids that their callers gave them: a request that comes again is answered, and does
-// not act again.
+// Memory of requests by the ids that their callers gave them: a repeated request receives the answer of the first, and
+// does not act again.
 #pragma once
 
 #include <cstddef>
@@ -19,52 +19,55 @@
 
 namespace axisgate::server::journal {
 
-// How long and how many are remembered. Of one that is forgotten a repeat would act again, so what a caller repeats
-// without a person carries a mark: RequestMemory::mark().
+// Limits of age and number of remembered requests. A repeat of a forgotten request would act again, so a caller that
+// repeats automatically sends a mark: RequestMemory::mark().
 struct MemoryBounds {
   Duration kept = std::chrono::hours(24);
   std::size_t most = 20'000;
 };
 
-// Thread safe. Callbacks are called from within the call that answers them.
+// Thread safe. Callbacks run within the call that answers them.
 class RequestMemory {
  public:
   using Key = std::pair<std::string, std::string>;  // identity and id
 
-  // What is known of a request that came before.
+  // State of an earlier request.
   struct Known {
     std::string device;
-    std::uint64_t motion = 0;  // 0: it has none
-    bool open = false;         // it has not ended
-    std::string answer;        // of an open motion: as it was made
+    std::uint64_t motion = 0;  // 0: none
+    bool open = false;         // has not ended
+    std::string answer;        // answer; for an open motion, its state when it was created
   };
   using OnKnown = std::function<void(const Result<Known>&)>;
 
-  // `epoch` is another text where all was forgotten. `boot_offset` added to the time since the machine's boot gives
-  // a clock that nobody sets, and that continues over boots. `before` are those of the runs before.
+  // `epoch` changes when the memory is lost. `boot_offset` plus the time since the machine's boot gives a clock that
+  // nobody sets, and that continues after a reboot. `before`: requests of earlier runs.
   RequestMemory(MemoryBounds bounds, std::string epoch, Duration boot_offset, RequestsOnFile before = {});
 
-  // Begins a request, of which identity, id, digest, device and moves are set. What is to be written of it; nothing:
-  // one with its id came before, and `known` is called, now or once it is known what it became. request_id_reused,
-  // where that one was another request; request_memory_lost, where it may have come and be forgotten: something was
-  // forgotten since `mark` was made. Empty: no mark.
+  // Begins a request; its identity, id, digest, device and moves must be set. Returns the change to write. Returns
+  // nullopt if a request with this id came before: `known` is then called, at once or when the result of the first
+  // request is known.
+  // Fails with request_id_reused if the first request had another digest.
+  // Fails with request_memory_lost if the request may have come before and be forgotten: a request was forgotten since
+  // `mark` was made. An empty `mark` is not checked.
   Result<std::optional<RequestChange>> begin(RememberedRequest request, std::string_view mark, TimePoint now,
                                              OnKnown known);
-  // It has acted: those who wait are answered, with its motion or what it answered. Of a motion without a written line:
-  // nothing yet.
+  // Records that the request has acted, and calls the waiting callbacks with its motion or its answer. Do not call it
+  // for a motion without a written line.
   void acted(const Key& key);
-  // Its motion was made, or it has ended. What is to be written; nothing, where no such request is open.
+  // Record that the request's motion was created, or has ended. Each returns the change to write; nullopt if no such
+  // request is open.
   std::optional<RequestChange> made(const Key& key, std::uint64_t motion, std::string answer);
   std::optional<RequestChange> motion_ended(const Key& key, std::uint64_t motion, std::string answer);
-  // One that is no motion has ended. Likewise.
+  // Records the end of a request that is not a motion. Returns the change to write; nullopt if no such request is open.
   std::optional<RequestChange> ended(const Key& key, std::string answer);
-  // It has done nothing: those who wait are refused likewise, and the id is free. What is to be written; nothing where
-  // it has ended, so that it has done something.
+  // Records that the request did nothing: waiting callers are refused with `why`, and the id is free again. Returns the
+  // change to write; nullopt if the request has ended and so has done something.
   std::optional<RequestChange> refused(const Key& key, const Problem& why);
 
-  // "EPOCH-NUMBER": where the memory is now.
+  // Returns the present state of the memory as "EPOCH-NUMBER".
   std::string mark() const;
-  // Those without an end.
+  // Returns the requests that have not ended.
   std::vector<RememberedRequest> open() const;
 
  private:
@@ -89,7 +92,7 @@ class RequestMemory {
   mutable std::mutex mutex_;
   Requests requests_;
   std::map<std::int64_t, Key> by_number_;
-  std::int64_t last_ = 0, forgotten_ = 0;  // numbers
+  std::int64_t last_ = 0, forgotten_ = 0;  // numbers of requests
 };
 
 }  // namespace axisgate::server::journal

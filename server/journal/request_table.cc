@@ -41,7 +41,7 @@ Result<void> RequestTable::put(const RememberedRequest& request) {
   return insert->bind(10, request.answer).step().map([](bool) {});
 }
 
-// Not a later one that has the same id by now.
+// Leaves a later request with the same id untouched.
 Result<void> RequestTable::forget(const RememberedRequest& request) {
   auto remove = database_.prepare("DELETE FROM request WHERE identity = ? AND id = ? AND number = ?");
   if (!remove) return tl::unexpected(remove.error());

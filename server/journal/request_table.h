@@ -1,5 +1,5 @@
-// What is remembered of requests by their ids, in the journal's file. It is outside the chain, since it is forgotten
-// again.
+// Remembered requests, by their ids, in the journal's file. They are outside the chain, because old requests are
+// deleted.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 namespace axisgate::server::journal {
 
 struct RememberedRequest {
-  std::string identity, id;  // whose, and the caller's own text
-  std::int64_t number = 0;   // ascends, also over restarts
-  Duration lived{};          // when it came, by RequestMemory's clock
-  std::string digest{};      // of what was requested
+  std::string identity, id;  // identity of the caller, and the id that the caller chose
+  std::int64_t number = 0;   // ascends, also after a restart
+  Duration lived{};          // time of arrival, by RequestMemory's clock
+  std::string digest{};      // digest of the request's content
   std::string device{};
-  bool moves = false;        // what it does is a motion
-  std::uint64_t motion = 0;  // 0: not made yet, or none
-  bool open = true;          // what became of it is not known yet
-  std::string answer{};      // answers.h; of an open motion: as it was made
+  bool moves = false;        // the request is a motion
+  std::uint64_t motion = 0;  // 0: not created yet, or none
+  bool open = true;          // the result is not known yet
+  std::string answer{};      // see answers.h; for an open motion: its state when it was created
 };
 
-// How the memory changes; written together with an entry.
+// Change of the memory, written together with an entry.
 struct RequestChange {
   RememberedRequest request{};  // without an id: none
-  bool forget = false;          // this request
-  std::int64_t forgotten = 0;   // all up to this number
+  bool forget = false;          // delete this request
+  std::int64_t forgotten = 0;   // delete all requests up to this number; 0: none
 };
 
 struct RequestsOnFile {
-  std::vector<RememberedRequest> requests;  // by number
-  std::int64_t forgotten = 0;               // all up to this number
+  std::vector<RememberedRequest> requests;  // ordered by number
+  std::int64_t forgotten = 0;               // all requests up to this number are forgotten
 };
 
-// Of one Database, which outlives it. Not thread safe.
+// Requests in a Database, which must outlive this object. Not thread safe.
 class RequestTable {
  public:
   static constexpr const char* kMake = R"(

@@ -57,7 +57,7 @@ Hash stored_hash(const Statement& row) {
 
 std::string text_of(const Hash& hash) { return fmt::format("{:02x}", fmt::join(hash, "")); }
 
-// All zeros where the text is no hash.
+// Returns all zeros if the text is not a hash.
 Hash hash_in(std::string_view text) {
   Hash hash{};
   for (std::size_t i = 0; i < hash.size() && 2 * i + 2 <= text.size(); ++i) {
@@ -132,7 +132,7 @@ Result<void> Store::upgrade(std::int64_t from) {
 
 Result<void> Store::append(std::span<const Record> records, const FactChange& facts) {
   if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
-  // Facts are first: they were kept before the records came, and a record may erase a name that they have.
+  // Writes the facts first: they were kept before the records came, and a record may erase a name that they contain.
   Result<void> done = FactTable(database_).change(facts);
   Result<Head> last = head();
   if (!last) done = tl::unexpected(last.error());
@@ -172,7 +172,7 @@ Result<void> Store::add(const Entry& entry, Head& head) {
   return insert->step().map([](bool) {});
 }
 
-// The last that was dropped; number 0: none was, and the hash is that before the first.
+// Returns the last dropped row. If none was dropped, its number is 0 and its hash is the one before the first row.
 Result<Head> Store::dropped() {
   auto epoch = this->epoch();
   if (!epoch) return tl::unexpected(epoch.error());
@@ -204,7 +204,7 @@ Result<bool> Store::drop_old(const StoreBounds& bounds, const Entry& as_of) {
   if (newest->number < end + kSegment) return false;
   const auto last = read({.before = end + 1}, 1);
   if (!last) return tl::unexpected(last.error());
-  if (last->empty() || last->front().number != end) return false;  // verify() says what is wrong
+  if (last->empty() || last->front().number != end) return false;  // verify() reports the cause
   const auto beyond = is_beyond(bounds, last->front().entry.time, as_of.time);
   if (!beyond || !*beyond) return beyond;
   return drop({before->epoch, end, last->front().hash}, as_of).map([] { return true; });
@@ -255,7 +255,8 @@ Result<std::vector<StoredEntry>> Store::unfinished_motions() {
   return all_of(*rows);
 }
 
-// The start of a run that is old enough has been dropped.
+// Looks at the newest start or end of the daemon. None is left if the start of the run was old enough to be dropped:
+// the run then counts as ended uncleanly.
 Result<bool> Store::ended_uncleanly() {
   using enum EntryKind;
   auto newest = database_.prepare(fmt::format(
@@ -286,7 +287,8 @@ Result<void> Store::set_meta(std::string_view key, std::string_view value) {
 
 Result<std::string> Store::epoch() { return meta("epoch"); }
 
-// "BOOT MICROSECONDS". The time between two boots does not count: what is remembered is remembered the longer.
+// The stored value is "BOOT MICROSECONDS". The time between two boots does not count, so requests are remembered
+// longer.
 Result<Duration> Store::boot_offset(std::string_view boot, TimePoint now) {
   const auto known = meta("boot");
   if (!known) return tl::unexpected(known.error());
@@ -313,7 +315,7 @@ Result<Head> Store::head() {
   return Head{*std::move(epoch), last->integer(0), stored_hash(*last)};
 }
 
-// The rows first: what is wrong with one of them is named by its number.
+// Checks the rows first, because a fault in a row is reported with its number.
 Result<Verdict> Store::verify(const std::optional<Head>& noted) {
   auto verdict = verify_chain(noted);
   if (!verdict || verdict->first_bad) return verdict;
@@ -323,7 +325,8 @@ Result<Verdict> Store::verify(const std::optional<Head>& noted) {
   return verdict;
 }
 
-// Of SQLite, about the file; empty: none. A quick_check would not compare indices with rows.
+// Returns SQLite's first complaint about the file; empty if there is none. A quick_check would not compare indices with
+// rows.
 Result<std::string> Store::first_complaint() {
   auto check = database_.prepare("PRAGMA integrity_check(1)");
   if (!check) return tl::unexpected(check.error());

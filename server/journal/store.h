@@ -17,70 +17,71 @@
 
 namespace axisgate::server::journal {
 
-// What is written together.
+// Changes that are written together.
 struct Record {
   Entry entry;
   RequestChange requests{};
-  std::int64_t erased_person = 0;  // whose name is erased after the entry is written; 0: nobody's
+  std::int64_t erased_person = 0;  // number of the caller whose name is erased after the entry is written; 0: none
 };
 
-// How much is kept; what is older is dropped in whole segments.
+// Limits of age and size; older entries are dropped in whole segments.
 struct StoreBounds {
   std::chrono::hours age = std::chrono::hours(24 * 366);
   std::int64_t bytes = std::int64_t{1} << 30;
 };
 
-// The end of the chain. Noted outside, it shows that nothing up to there was changed.
+// End of the chain. A copy kept elsewhere proves later that no entry up to it was changed.
 struct Head {
-  std::string epoch;        // of the file
-  std::int64_t number = 0;  // of the last row; 0: none
+  std::string epoch;        // epoch of the file
+  std::int64_t number = 0;  // number of the last row; 0: none
   Hash hash{};
 };
 
 struct Verdict {
-  std::int64_t rows = 0;                  // that were looked at
-  std::optional<std::int64_t> first_bad;  // the number of a row
-  std::string fault{};  // what is wrong with that row, or with what is no row, such as an index; empty: all is good
+  std::int64_t rows = 0;                  // number of rows checked
+  std::optional<std::int64_t> first_bad;  // number of the first bad row
+  std::string fault{};  // fault of the first bad row, or of another part such as an index; empty: no fault
 };
 
-// Not thread safe; several of one file are.
+// Not thread safe, but several stores of one file may be used at the same time.
 class Store {
  public:
-  // To write; made where it is missing. internal: the file cannot be opened, or a newer version has written it.
-  // `vfs`: as of Database::open().
+  // Opens a file to write, and creates a missing one. Fails with internal if the file cannot be opened, or if a newer
+  // version has written it. `vfs`: see Database::open().
   static tl::expected<Store, Unopened> open(const std::string& path, const char* vfs = nullptr);
   static Result<Store> open_to_read(const std::string& path);
 
-  // All of them are on the disk when it returns, or none.
+  // Writes all records and facts, or none if it fails. They are on the disk when it returns.
   Result<void> append(std::span<const Record> records, const FactChange& facts = {});
 
-  // So many entries are a segment.
+  // Number of entries in a segment.
   static constexpr std::int64_t kSegment = 10'000;
-  // Drops the oldest segment, if it is too old or the file too large; whether it did. Its last hash stays, in the
-  // entry that says so, and the chain begins there. The newest segment is never dropped. `as_of`: when, and by which
-  // clocks.
+  // Drops the oldest segment if it is too old or the file is too large, and reports whether it did. The segment's last
+  // hash stays in the entry about it, and the chain begins there. The newest segment is never dropped. `as_of`: the
+  // present time, by both clocks.
   Result<bool> drop_old(const StoreBounds& bounds, const Entry& as_of);
 
-  // At most `limit`, in the order of their numbers.
+  // Returns at most `limit` entries, ordered by number.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit);
   Result<std::optional<NamedPerson>> find_person(std::string_view name) { return PersonTable(database_).find(name); }
-  // As Database::empty_log().
+  // See Database::empty_log().
   Result<void> empty_log() { return database_.empty_log(); }
   Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
-  // Whether the newest run of the daemon has no end. Of an empty file: no.
+  // Reports whether the newest run of the daemon has no end. False for an empty file.
   Result<bool> ended_uncleanly();
-  // Once for each run, before its start is appended: FactTable::begin().
+  // Call once in each run, before its start is appended; see FactTable::begin().
   Result<FactsBefore> begin_facts(bool after_unclean_end) { return FactTable(database_).begin(after_unclean_end); }
-  // What, added to the time since this boot, gives a clock that continues over boots. `boot` names this one.
+  // Returns the offset that, added to the time since this boot, gives a clock that continues after a reboot. `boot`
+  // names this boot.
   Result<Duration> boot_offset(std::string_view boot, TimePoint now);
-  // A different text for each new file.
+  // Returns a text that is different for each new file.
   Result<std::string> epoch();
-  // The entries of motions of the newest run of the daemon that were requested, and have not ended.
+  // Returns the requested motions of the daemon's newest run that have not ended.
   Result<std::vector<StoredEntry>> unfinished_motions();
-  // The highest number of a motion of the device; 0: it had none.
+  // Returns the highest number of a motion of the device; 0 if it had none.
   Result<std::uint64_t> last_motion(std::string_view device);
   Result<Head> head();
-  // Computes all hashes again, and looks whether the indices agree with the rows. `noted`: a head of before, that must
+  // Computes all hashes again, and checks that the indices agree with the rows. `noted`: an earlier head that must
   // still be part of the chain.
   Result<Verdict> verify(const std::optional<Head>& noted);
 

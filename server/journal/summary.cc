@@ -25,7 +25,7 @@ std::string fact_of(EntryKind kind, std::string_view name) {
   return fmt::format("iif({}, {}, NULL)", is(kind), fact(name));
 }
 
-// The index of changes of lines (store.cc) serves statements with this very condition.
+// The index of line changes (store.cc) is used only for statements with exactly this condition.
 std::string of_line() { return is(EntryKind::link_changed) + " AND device = ? "; }
 
 struct LinkEntry {
@@ -43,15 +43,15 @@ struct DaemonEntry {
 struct Person {
   WallTime first{}, last{};
   std::int64_t refused = 0;
-  std::map<std::pair<std::string, std::string>, std::int64_t> motions{};  // by kind and outcome
+  std::map<std::pair<std::string, std::string>, std::int64_t> motions{};  // numbers by kind and outcome
 };
 
-// What one pass over the entries of a span collects.
+// Collects data in one pass over the entries of a span.
 class Pass {
  public:
   Result<void> run(Database& database, const Span& span);
 
-  std::map<std::int64_t, Person> persons;  // by their numbers
+  std::map<std::int64_t, Person> persons;  // persons by their numbers
   Listed<StopSummary> stops;
   Listed<LateStop> late_stops;
   Listed<ConditionSummary> conditions;
@@ -83,8 +83,8 @@ class Pass {
   void count(EntryKind kind, const Statement& row);
 };
 
-// Lines, leases and latches are not summed up. The name is needed of stops alone, and the body of conditions alone:
-// both are few.
+// Skips lines, leases and latches. The query reads names for stops alone and bodies for conditions alone, because both
+// are few.
 std::string Pass::sql() {
   return fmt::format(
       "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, {}, {}, "
@@ -162,9 +162,9 @@ void Pass::add_condition(const Statement& row) {
 void Pass::count(EntryKind what, const Statement& row) {
   Person& caller = persons.try_emplace(row.integer(person), Person{.first = row.time(time)}).first->second;
   caller.last = row.time(time);
-  // One entry may be of many.
+  // An entry may count several requests.
   if (what == EntryKind::request_refused) caller.refused += std::max<std::int64_t>(row.integer(refusals), 1);
-  // One that was refused before its first line has an entry of that, too.
+  // A motion that was refused before its first line has an entry for the refusal, too.
   if (what == EntryKind::motion_ended && row.integer(refused) == 0) {
     ++caller.motions[{std::string(row.bytes(motion_kind)), std::string(row.bytes(outcome))}];
   }
@@ -188,8 +188,8 @@ Result<Listed<PersonSummary>> named(Database& database, const std::map<std::int6
   return listed;
 }
 
-// Those that the daemon had at the beginning of the span, or has had since. A line that was down when its device was
-// taken out of the configuration is not down forever.
+// Returns the devices that the daemon had at the beginning of the span, or had later. A line that was down when its
+// device was removed from the configuration does not stay down forever.
 Result<std::vector<std::string>> lines_of(Database& database, const Span& span) {
   auto lines = database.prepare(
       fmt::format("SELECT DISTINCT device FROM entry WHERE {} AND (? = '' OR device = ?) AND number > coalesce("
@@ -206,9 +206,10 @@ Result<std::vector<std::string>> lines_of(Database& database, const Span& span) 
   }
 }
 
-using DownSince = std::map<std::string, LinkEntry>;  // by device
+using DownSince = std::map<std::string, LinkEntry>;  // lines by device
 
-// The lines that were down when the span began. An attempt to connect that fails is down again, and the same loss.
+// Returns the lines that were down when the span began. A failed attempt to connect reports DOWN again, but belongs to
+// the same loss.
 Result<DownSince> down_before(Database& database, const Span& span) {
   const auto devices = lines_of(database, span);
   if (!devices) return tl::unexpected(devices.error());
@@ -238,7 +239,7 @@ Result<std::optional<WallTime>> up_after(Database& database, const LinkEntry& do
   });
 }
 
-// By numbers: a clock that was set may have put times into another order.
+// Sorts by number, because setting the clock may have changed the order of the times.
 Result<Listed<LinkLoss>> losses(Database& database, const Span& span, std::vector<LinkEntry> links) {
   auto down = down_before(database, span);
   if (!down) return tl::unexpected(down.error());
@@ -260,7 +261,7 @@ Result<Listed<LinkLoss>> losses(Database& database, const Span& span, std::vecto
   return listed;
 }
 
-// Whether a run has begun before this entry, and not ended.
+// Reports whether a run began before this entry and has not ended.
 Result<bool> runs_before(Database& database, const DaemonEntry& entry) {
   auto last = database.prepare(
       fmt::format("SELECT kind FROM entry WHERE device = '' AND motion = 0 AND ({} OR {}) AND number < ? "

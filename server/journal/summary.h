@@ -1,4 +1,4 @@
-// What happened within some time, such as a night: few enough facts for one screen.
+// Summary of a period, such as a night, with few enough facts for one screen.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,9 @@ namespace axisgate::server::journal {
 // from <= time < to.
 struct Span {
   WallTime from = WallTime::min(), to = WallTime::max();
-  std::string device{};    // empty: all
-  std::string identity{};  // only entries by callers of this identity (access/access.h), and by nobody; empty: all
+  std::string device{};  // empty: all
+  // Only entries by callers of this identity (access/access.h), and entries without a caller; empty: all.
+  std::string identity{};
 };
 
 // The texts are those of the entries.
@@ -26,10 +27,10 @@ struct MotionCount {
 };
 
 struct PersonSummary {
-  std::string who;                   // empty: nobody
-  WallTime first, last;              // of the caller's entries
-  std::vector<MotionCount> motions;  // that ended
-  std::int64_t refused = 0;          // requests
+  std::string who;                   // empty: none
+  WallTime first, last;              // times of the caller's first and last entry
+  std::vector<MotionCount> motions;  // motions that ended
+  std::int64_t refused = 0;          // number of refused requests
 };
 
 struct StopSummary {
@@ -40,7 +41,7 @@ struct StopSummary {
 
 // A late stop: a caller was notified that it stays open.
 struct LateStop {
-  WallTime time;  // when it ended
+  WallTime time;  // end of the stop
   std::string who, device;
   bool emergency = false;
   Duration after{};        // since it was requested
@@ -49,11 +50,11 @@ struct LateStop {
 
 // A condition of a stage that began or ended (device/stage/condition.h).
 struct ConditionSummary {
-  WallTime seen;                     // by the first reading that showed it
-  std::optional<WallTime> before{};  // the reading before; nothing: there was none
+  WallTime seen;                     // time of the first poll that showed it
+  std::optional<WallTime> before{};  // time of the poll before it; nullopt if there was none
   std::string device;
-  std::string condition;  // its name
-  std::vector<int> axes;  // empty: of the whole controller
+  std::string condition;  // name of the condition
+  std::vector<int> axes;  // empty: the whole controller
   bool begun = false;
   std::string value;  // the mode or the command format
 };
@@ -61,15 +62,15 @@ struct ConditionSummary {
 struct LinkLoss {
   std::string device;
   WallTime down;               // may be before the span
-  std::optional<WallTime> up;  // may be after it; nothing: not up again
+  std::optional<WallTime> up;  // may be after the span; nullopt if not up again
 };
 
 struct DaemonStart {
   WallTime time;
-  bool after_unclean_end = false;  // the run before has no end
+  bool after_unclean_end = false;  // the previous run has no end
 };
 
-// Of many the first, and how many more there are.
+// First items of a list, and the number of further ones.
 template <class Item>
 struct Listed {
   static constexpr std::size_t kMax = 100;
@@ -83,14 +84,14 @@ struct Listed {
   }
 };
 
-// Each in the order of its times.
+// Each list is in the order of its times.
 struct Summary {
   Listed<PersonSummary> persons;
   Listed<StopSummary> stops;
   Listed<LateStop> late_stops;
   Listed<ConditionSummary> conditions;
   Listed<LinkLoss> losses;
-  Listed<DaemonStart> starts;  // in the order of their entries, whatever the span's device
+  Listed<DaemonStart> starts;  // in the order of their entries, for all devices
 };
 
 // Reads each entry of the span once, and few outside it: a million entries take a second.

@@ -11,7 +11,7 @@ namespace axisgate::server {
 std::vector<prometheus::MetricFamily> CertificateMetrics::Collect() const {
   const Result<WallTime> until = expiry(certificate_);
   prometheus::ClientMetric metric;
-  // 0: it cannot be served any more, whatever the reason.
+  // 0: the file cannot be read, for any reason.
   metric.gauge.value = until ? std::chrono::duration<double>(until->time_since_epoch()).count() : 0;
   return {{"axisgate_certificate_expiry_timestamp_seconds",
            "When the certificate expires that is served on the network; 0 where its file cannot be read.",

@@ -1,4 +1,4 @@
-// Until when the daemon's certificate is good, on the metrics page.
+// Expiry time of the daemon's certificate on the metrics page.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -8,7 +8,7 @@
 
 namespace axisgate::server {
 
-// Reads the file whenever the page is requested, so that a new certificate shows without a restart.
+// Reads the file for each request of the page, so that a new certificate appears without a restart.
 class CertificateMetrics final : public prometheus::Collectable {
  public:
   explicit CertificateMetrics(std::string certificate) : certificate_(std::move(certificate)) {}

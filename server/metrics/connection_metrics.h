@@ -1,4 +1,4 @@
-// The connections on the metrics page. They are counted when the page is requested, since gRPC closes them silently.
+// The connections on the metrics page. They are counted for each request, since gRPC closes them without a report.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace axisgate::server {
 
 class ConnectionMetrics {
  public:
-  // `ask` is called from the page's thread, as long as this lives.
+  // `ask` is called on the page's thread as long as this object lives.
   ConnectionMetrics(Metrics& metrics, std::function<ConnectionCounts()> ask);
   // Waits for a page that is being made.
   ~ConnectionMetrics();

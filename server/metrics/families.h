@@ -1,4 +1,4 @@
-// Families of a registry: one that it has already is found again.
+// Metric families of a registry. An existing family is returned again.
 #pragma once
 
 #include <prometheus/counter.h>

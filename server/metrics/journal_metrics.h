@@ -1,4 +1,4 @@
-// Whether the disk takes the journal, on the metrics page.
+// State of the journal on the metrics page.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -11,7 +11,7 @@ namespace axisgate::server {
 
 class JournalMetrics final : public prometheus::Collectable {
  public:
-  // It outlives this.
+  // `journal` must outlive this object.
   explicit JournalMetrics(const journal::Journal& journal) : journal_(journal) {}
 
   std::vector<prometheus::MetricFamily> Collect() const override;

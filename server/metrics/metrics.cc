@@ -34,7 +34,7 @@ Result<int> Metrics::expose(const TcpAddress& address, const PageLimits& limits)
   auto page = MetricsPage::open(
       address, [this] { return text(); }, limits);
   if (!page) {
-    // Its own problem names the key of another address.
+    // The page's own problem names the configuration key of another address.
     return fail(Reason::internal,
                 fmt::format("cannot serve metrics on {}: the port is in use or not permitted", to_string(address)),
                 "stop the program that holds it, or set another address with the key `metrics` in the configuration");
@@ -49,7 +49,7 @@ void Metrics::add(std::shared_ptr<prometheus::Collectable> part) {
 }
 
 std::string Metrics::text() {
-  // A part may take its time; nobody who adds another waits for it.
+  // Collecting may take long and must not delay a thread that calls add(), so the lock covers only the copy.
   const auto parts = [this] {
     const std::lock_guard lock(parts_mutex_);
     return parts_;

@@ -1,5 +1,5 @@
-// What Prometheus may know: fixed names, fixed label sets, one time series per device and table entry. Here: the page,
-// and what belongs to no kind of device.
+// Metrics for Prometheus: fixed names and label sets, one time series per device and table entry. This file has the
+// page and the metrics that belong to no kind of device.
 #pragma once
 
 #include <prometheus/collectable.h>
@@ -20,7 +20,8 @@ namespace axisgate::server {
 
 class MetricsPage;
 
-// One for the daemon. Thread safe once constructed, but for expose() and add(), which are one thread's.
+// The daemon has one Metrics. Thread safe after construction, except for expose() and add(), which one thread must
+// call.
 class Metrics {
  public:
   Metrics();
@@ -28,17 +29,17 @@ class Metrics {
   Metrics(const Metrics&) = delete;
   Metrics& operator=(const Metrics&) = delete;
 
-  // Serves /metrics at the address and returns the port taken, or says why not (a port in use). Call it once.
+  // Serves /metrics at the address and returns the port. Fails if the port is in use. Call it once.
   Result<int> expose(const TcpAddress& address, const PageLimits& limits = {});
 
-  // Stands on the page, too: for what is not counted but asked when the page is. Kept as long as the page, so that
-  // the page's thread is not the last to hold it.
+  // Adds a source of metrics that is queried for each request of the page. It is kept as long as the page, so that the
+  // page's thread never destroys it.
   void add(std::shared_ptr<prometheus::Collectable> part);
 
   const std::shared_ptr<prometheus::Registry>& registry() const { return registry_; }
 
   prometheus::Counter& slow_readers() { return slow_readers_; }
-  // Recorded lines of a device that were lost. Any thread may count.
+  // Returns the counter of a device's lost recording lines. Any thread may count.
   prometheus::Counter& recorder_drops(const std::string& device) { return recorder_drops_.Add({{"device", device}}); }
 
  private:
@@ -49,7 +50,7 @@ class Metrics {
   prometheus::Counter& slow_readers_;
   std::mutex parts_mutex_;
   std::vector<std::shared_ptr<prometheus::Collectable>> parts_;
-  std::unique_ptr<MetricsPage> page_;  // last: its thread uses the others
+  std::unique_ptr<MetricsPage> page_;  // last, because its thread uses the other members
 };
 
 }  // namespace axisgate::server

@@ -45,7 +45,7 @@ void MetricsPage::accept() {
   wait();
 }
 
-// Without a free descriptor, in the place of another.
+// Closes another connection if no descriptor is free.
 Descriptor MetricsPage::accept_one() {
   Descriptor connection(Acceptor::accept_connection(listener_.native_handle()));
   const bool out_of_descriptors = !connection.valid() && (errno == EMFILE || errno == ENFILE);
@@ -67,8 +67,8 @@ void MetricsPage::take_in(Descriptor connection) {
   sessions_.back()->start(std::move(connection));
 }
 
-// The one that has been waiting longest without a whole request. If all have one, the slowest reader: others have
-// their answer within milliseconds. False if there is none.
+// Ends the connection that has waited longest without a complete request. If all have one, ends the slowest reader,
+// since others receive their answer within milliseconds. Returns false without a connection to end.
 bool MetricsPage::displace_one() {
   std::erase_if(sessions_, [](const auto& session) { return !session->is_open(); });
   const auto oldest = std::ranges::min_element(

@@ -1,4 +1,4 @@
-// The page that Prometheus reads: /metrics over HTTP, on a thread of its own.
+// The page that Prometheus reads: /metrics over HTTP, on a separate thread.
 #pragma once
 
 #include <functional>
@@ -18,21 +18,21 @@
 
 namespace axisgate::server {
 
-// Readers cannot keep others from the page, however many they are, however slowly they read, and whether they ever send
-// a whole request: when all places are taken, a new connection displaces another.
+// Readers cannot block the page for others, whatever their number and speed, even if they never send a complete
+// request: when all places are taken, a new connection displaces another.
 class MetricsPage {
  public:
-  // Called on the page's thread. Readers wait meanwhile.
+  // Called on the page's thread while readers wait.
   using MakeText = std::function<std::string()>;
 
-  // Serves from now on. Fails if nobody can listen there, as when the port is in use.
+  // Starts to serve. Fails if it cannot listen at `address`, for instance because the port is in use.
   static Result<std::unique_ptr<MetricsPage>> open(TcpAddress address, MakeText make_text, const PageLimits& limits);
   // Closes all connections.
   ~MetricsPage();
   MetricsPage(const MetricsPage&) = delete;
   MetricsPage& operator=(const MetricsPage&) = delete;
 
-  const TcpAddress& address() const { return address_; }  // with the port really taken
+  const TcpAddress& address() const { return address_; }  // with the port actually taken
 
  private:
   MetricsPage(TcpAddress address, Descriptor listener, MakeText make_text, const PageLimits& limits);
@@ -50,8 +50,8 @@ class MetricsPage {
   boost::asio::io_context context_{1};
   boost::asio::posix::stream_descriptor listener_;
   boost::asio::steady_timer pause_;
-  std::vector<std::shared_ptr<PageSession>> sessions_;  // those that ended since the last connection among them
-  PageText text_;                                       // null before the first
+  std::vector<std::shared_ptr<PageSession>> sessions_;  // includes those that ended since the last connection
+  PageText text_;                                       // null before the first request
   TimePoint text_made_{};
   std::thread thread_;
 };

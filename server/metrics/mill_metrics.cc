@@ -92,7 +92,7 @@ void MillMetrics::count(const rml1::Job& job, TimePoint now) {
     started_ = now;
     written_ = next_byte(job);
   }
-  // The estimate is of the whole job.
+  // The estimate covers only a whole job of one part.
   if (job.state != JobState::fed || job.parts.size() > 1 || job.setup.from) return;
   job_seconds_.Increment(std::chrono::duration<double>(now - started_).count());
   const rml1::TimeRange takes = rml1::takes(job);
@@ -100,7 +100,7 @@ void MillMetrics::count(const rml1::Job& job, TimePoint now) {
   estimate_.most.Increment(std::chrono::duration<double>(takes.most).count());
 }
 
-// What is written around a job is no part of it, and adds nothing.
+// Commands that the gateway adds around a job are not counted.
 void MillMetrics::count_written(std::uint64_t through) {
   if (through <= written_) return;
   bytes_.Increment(static_cast<double>(through - written_));

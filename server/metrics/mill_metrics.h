@@ -1,4 +1,4 @@
-// What Prometheus may know of a mill: its line, its queue, and what was sent to it.
+// Metrics of a mill: its line, its queue, and the bytes sent to it.
 #pragma once
 
 #include <prometheus/counter.h>
@@ -19,24 +19,24 @@
 
 namespace axisgate::server {
 
-// One mill's time series, their handles kept. Called on the device's strand; `registry` outlives it.
+// The time series of one mill. Called on the device's strand; `registry` must outlive this object.
 class MillMetrics {
  public:
   MillMetrics(prometheus::Registry& registry, const std::string& device);
 
   void set_link(rml1::MillLink link) { line_open_.Set(link == rml1::MillLink::open ? 1 : 0); }
-  // Has another state by now.
+  // Counts a job that has entered another state.
   void count(const rml1::Job& job, TimePoint now);
-  // Of the job that runs, up to which byte it has been written now: a whole command.
+  // Counts a command of the running job that was written. `through` is the byte offset after the command.
   void count_written(std::uint64_t through);
   void count_abort() { aborts_.Increment(); }
-  // As MillController has them.
+  // Updates the gauges with the state that MillController reports.
   void set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running);
   void set_pace(const std::optional<rml1::MeasuredPace>& measured);
 
  private:
   struct Families;
-  // A range: of a duration in seconds, of bytes, or of a ratio.
+  // Lower and upper bound of a duration in seconds, of bytes, or of a ratio.
   template <class Series>
   struct Bounds {
     Series &least, &most;
@@ -53,9 +53,9 @@ class MillMetrics {
   Bounds<prometheus::Counter> estimate_;
   Bounds<prometheus::Gauge> buffer_;
   Bounds<prometheus::Gauge> pace_;
-  std::array<prometheus::Gauge*, rml1::kJobStates> queued_{};      // by JobState; null: such a job is not in the queue
-  std::array<prometheus::Counter*, rml1::kJobStates> outcomes_{};  // by JobState; null: no outcome
-  std::uint64_t written_ = 0;                                      // of the job that runs
+  std::array<prometheus::Gauge*, rml1::kJobStates> queued_{};      // by JobState; null: not a state of a queued job
+  std::array<prometheus::Counter*, rml1::kJobStates> outcomes_{};  // by JobState; null: not an outcome
+  std::uint64_t written_ = 0;                                      // of the running job
   TimePoint started_{};
 };
 

@@ -1,4 +1,4 @@
-// What the metrics page answers to a request.
+// Answers of the metrics page to requests.
 #pragma once
 
 #include <functional>
@@ -9,23 +9,23 @@
 
 namespace axisgate::server {
 
-// One for all its readers.
+// One text, shared by all readers.
 using PageText = std::shared_ptr<const std::string>;
 using TakePageText = std::function<PageText()>;
 
 struct PageAnswer {
   std::string head;
-  PageText body;            // null to HEAD
-  bool keep_alive = false;  // the connection stays open afterwards
+  PageText body;            // null for HEAD
+  bool keep_alive = false;  // the connection stays open after the answer
 };
 
-// Takes the text only where the answer needs it.
+// Calls `take_text` only if the answer needs the text.
 PageAnswer answer(const PageRequest& request, const TakePageText& take_text);
 
-// To what is not HTTP.
+// Returns the answer to a request that is not HTTP.
 PageAnswer answer_malformed();
 
-// To a head that is longer than allowed.
+// Returns the answer to a head that is longer than allowed.
 PageAnswer answer_too_long();
 
 }  // namespace axisgate::server

@@ -1,4 +1,4 @@
-// What the metrics page allows its readers, and how long it waits for them.
+// Limits for readers of the metrics page.
 #pragma once
 
 #include <chrono>
@@ -9,22 +9,23 @@
 namespace axisgate::server {
 
 struct PageLimits {
-  // Far more than a few Prometheus servers and people need. Each takes a descriptor of those that
+  // Far more than a few Prometheus servers and people need. Each takes one of the descriptors that
   // connections/descriptor_limit.cc sets aside.
   std::size_t connections = 128;
-  // Prometheus sends a few hundred bytes; 8 KiB is what most servers allow.
+  // Prometheus sends a few hundred bytes; 8 KiB is the limit of most servers.
   std::size_t head_bytes = 8192;
-  // For a whole head. On loopback it is there at once, unless its sender is not served by a busy machine.
+  // Time for a whole head. On loopback, only a busy machine needs more than a moment.
   Duration head = std::chrono::seconds(5);
-  // For an answer to be taken. Prometheus itself waits 10 s for it, unless it is configured otherwise.
+  // Time for the reader to take an answer. Prometheus itself waits 10 s, unless it is configured otherwise.
   Duration answer = std::chrono::seconds(10);
-  // Between two requests. Longer than the minute that Prometheus usually leaves, so that it keeps its connection.
+  // Time between two requests. Longer than the usual minute of Prometheus, so that it keeps its connection.
   Duration idle = std::chrono::seconds(90);
-  // For the reader to close after the last answer: closing first would discard an answer whose reader still sends.
+  // Time for the reader to close after the last answer: closing first would discard the answer of a reader that still
+  // sends.
   Duration leaving = std::chrono::seconds(1);
-  // How old a text may be that is sent again: so many readers cost no more than ten texts a second.
+  // Maximum age of a text that is sent again: any number of readers costs at most ten texts a second.
   Duration text_age = std::chrono::milliseconds(100);
-  // Until the next attempt when a connection could not be accepted, for lack of descriptors.
+  // Delay before the next attempt when no descriptor was free to accept a connection.
   Duration accept_pause = std::chrono::milliseconds(50);
 };
 

@@ -7,14 +7,14 @@ namespace {
 
 constexpr std::size_t kNowhere = std::string_view::npos;
 
-// What the fields of a head say about the connection.
+// Information about the connection in the fields of a head.
 struct Fields {
   bool close = false;
   bool keep_alive = false;
   bool body = false;
 };
 
-// Without its line end, which people at a terminal send without a carriage return.
+// Removes the line end as well. A person at a terminal sends it without a carriage return.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   std::string_view line = text.substr(0, end);

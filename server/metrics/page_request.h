@@ -1,4 +1,4 @@
-// Requests to the metrics page: as much of HTTP/1 as a page needs that only answers.
+// Parser of requests to the metrics page: the part of HTTP/1 that a read-only page needs.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@ namespace axisgate::server {
 
 struct PageRequest {
   std::string method;
-  std::string path;         // without what follows a question mark
+  std::string path;         // without the question mark and the text after it
   bool keep_alive = false;  // another request may follow on the connection
 };
 
-// The size of the first head in `received`, with its empty line; nothing until it is complete.
+// Returns the size of the first head in `received`, including its empty line. nullopt until it is complete.
 std::optional<std::size_t> head_size(std::string_view received);
 
-// Nothing if the head is not HTTP/1.
+// Returns nullopt if the head is not HTTP/1.
 std::optional<PageRequest> parse_request(std::string_view head);
 
 }  // namespace axisgate::server

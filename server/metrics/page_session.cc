@@ -20,7 +20,7 @@ using boost::system::error_code;
 
 using Piece = std::array<char, 4096>;
 
-// As recv(2).
+// Returns the result of recv(2).
 ssize_t receive(int socket, Piece& piece) { return ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT); }
 
 bool is_passing(int error) { return error == EAGAIN || error == EINTR; }
@@ -30,7 +30,7 @@ iovec rest_of(std::string_view text, std::size_t sent) {
   return {const_cast<char*>(rest.data()), rest.size()};
 }
 
-// As send(2), from both as if they were one text, so that the head does not travel alone.
+// Returns the result of sendmsg(2). Sends `head` and `body` as one text, so that the head needs no packet of its own.
 ssize_t send_from(int socket, std::string_view head, std::string_view body, std::size_t sent) {
   std::array<iovec, 2> rests = {rest_of(head, sent), rest_of(body, sent - std::min(sent, head.size()))};
   msghdr message{};
@@ -65,7 +65,7 @@ void PageSession::enter(State state, Duration limit) {
   since_ = monotonic_now();
   limit_.expires_after(limit);
   limit_.async_wait([self = shared_from_this()](const error_code& error) {
-    // One that has passed already cannot be cancelled: its time may be another's by now.
+    // An expired timer cannot be cancelled: it may already have been set again for another state.
     if (!error && self->limit_.expiry() <= std::chrono::steady_clock::now()) self->end();
   });
 }
@@ -124,7 +124,8 @@ void PageSession::stay() {
     enter(State::idle, limits_.idle);
     return wait_for(Socket::wait_read, &PageSession::read);
   }
-  // Part of the next request came with this one. Others first: a connection may bring hundreds at once.
+  // Part of the next request came with this one. Other connections get their turn first, since one connection may send
+  // hundreds of requests at once.
   enter(State::asking, limits_.head);
   boost::asio::post(socket_.get_executor(), [self = shared_from_this()] {
     if (self->is_open()) self->look_for_request();

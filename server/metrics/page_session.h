@@ -13,21 +13,21 @@
 
 namespace axisgate::server {
 
-// On the context's one thread. What it waits for holds it.
+// Runs on the context's only thread. Its pending operations keep it alive.
 class PageSession : public std::enable_shared_from_this<PageSession> {
  public:
-  // `limits` outlives this.
+  // `limits` must outlive this object.
   PageSession(boost::asio::io_context& context, const PageLimits& limits, TakePageText take_text);
 
-  // Takes over the connection, which does not block. Call it once.
+  // Takes over the non-blocking connection. Call it once.
   void start(Descriptor connection);
-  // Closes the connection, whatever is unsent.
+  // Closes the connection and discards unsent bytes.
   void end();
 
   bool is_open() const { return socket_.is_open(); }
-  // Whether a whole request is there, of which the answer is not.
+  // Reports whether the answer to a complete request is being sent.
   bool is_answering() const { return state_ == State::answering; }
-  TimePoint since() const { return since_; }  // it has been doing what it does
+  TimePoint since() const { return since_; }  // begin of the present state
 
  private:
   enum class State { asking, answering, idle, leaving };
@@ -49,7 +49,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   boost::asio::steady_timer limit_;
   State state_ = State::asking;
   TimePoint since_{};
-  std::string received_;  // and not answered yet
+  std::string received_;  // not answered yet
   PageAnswer answer_;
   std::size_t sent_ = 0;  // of head and body
 };

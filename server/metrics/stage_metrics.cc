@@ -19,15 +19,16 @@ using prometheus::Family;
 using prometheus::Gauge;
 using prometheus::Histogram;
 
-// Seconds. A question and its reply take 12 ms at 38400 baud, 46 ms at 9600; the reply's time limit is 0.5 s, 5 s for
-// a few commands.
+// In seconds. A question and its reply take 12 ms at 38400 baud, 46 ms at 9600; the reply's time limit is 0.5 s, 5 s
+// for a few commands.
 const Histogram::BucketBoundaries kExchangeSeconds = {0.0005, 0.001, 0.002, 0.005, 0.01, 0.02,
                                                       0.05,   0.1,   0.2,   0.5,   1,    5};
 
-// Seconds. On an idle line a command waits for nothing, behind one exchange some 12 ms, behind a barrier up to 2 s.
+// In seconds. A command does not wait on an idle line; it waits about 12 ms after one exchange, up to 2 s after a
+// barrier.
 const Histogram::BucketBoundaries kQueueWaitSeconds = {0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};
 
-// Seconds. Axes slow down for up to 1 s (manual 89) D:); a line that is cut can keep a stop open for hours.
+// In seconds. Axes slow down for up to 1 s (manual 89) D:); a line that is cut can keep a stop open for hours.
 const Histogram::BucketBoundaries kStopSeconds = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 60, 600, 3600};
 
 double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -155,7 +156,7 @@ StageMetrics::StageMetrics(const Families& families, std::string device)
   for (const stage::Condition condition : stage::reported_conditions()) {
     conditions_[condition] = &families.conditions.Add({{"device", device_}, {"condition", stage::name(condition)}});
   }
-  // Made now, so that the first of a kind is an increase, too.
+  // Made now, so that the first motion of each kind counts as an increase.
   using stage::MotionKind, stage::MotionState;
   for (const MotionKind kind : {MotionKind::move, MotionKind::home, MotionKind::return_to_origin, MotionKind::path,
                                 MotionKind::execute, MotionKind::jog, MotionKind::scan}) {
@@ -187,7 +188,7 @@ void StageMetrics::set_state(const stage::State& state) {
       if (!position) continue;
       positions_[axis] = &positions_family_.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
     }
-    // A gauge is a double: exact up to 2^53 pulses, and the counter has ten digits.
+    // A gauge is a double, which is exact up to 2^53 pulses; the counter has ten digits.
     positions_[axis]->Set(position ? static_cast<double>(*position) : std::numeric_limits<double>::quiet_NaN());
   }
 }
@@ -215,7 +216,7 @@ void StageMetrics::count(const stage::ExchangeEnded& exchange) {
 }
 
 void StageMetrics::count(const stage::MotionChanged& change) {
-  // Once a motion: the family finds its series again by itself.
+  // Happens once for each motion, so the family may look its series up.
   if (stage::is_outcome(change.motion.state)) motions(change.motion.kind, change.motion.state).Increment();
 }
 

@@ -1,4 +1,4 @@
-// What Prometheus may know of a stage: its line, its commands and its motions.
+// Metrics of a stage: its line, its commands and its motions.
 #pragma once
 
 #include <prometheus/counter.h>
@@ -19,7 +19,7 @@
 
 namespace axisgate::server {
 
-// One stage's time series, their handles kept. Called on the device's strand; `registry` outlives it.
+// The time series of one stage. Called on the device's strand; `registry` must outlive this object.
 class StageMetrics {
  public:
   StageMetrics(prometheus::Registry& registry, std::string device);
@@ -66,7 +66,7 @@ class StageMetrics {
   prometheus::Counter& motions(stage::MotionKind kind, stage::MotionState outcome);
 
   const std::string device_;
-  // A series of these is looked up, or made, at its event.
+  // The series of these families are looked up, or made, at each event.
   prometheus::Family<prometheus::Counter>& exchanges_;
   prometheus::Family<prometheus::Histogram>& exchange_seconds_;
   prometheus::Family<prometheus::Counter>& motions_;
@@ -76,7 +76,7 @@ class StageMetrics {
   std::array<prometheus::Histogram*, kLaneCount> waits_{};
   std::array<prometheus::Counter*, 3> time_limits_{};  // by TimeLimitPassed::Kind
   std::array<prometheus::Counter*, stage::kAxisCount> completions_{};
-  std::map<stage::Condition, prometheus::Counter*> conditions_;    // the reported ones
+  std::map<stage::Condition, prometheus::Counter*> conditions_;    // the reported conditions
   std::array<prometheus::Gauge*, stage::kAxisCount> positions_{};  // null until a position is known
   prometheus::Counter& normal_stops_;
   prometheus::Counter& emergency_stops_;

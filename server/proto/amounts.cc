@@ -15,7 +15,7 @@ Result<Quantity> decimal(const std::string& text, Unit unit) {
   return Quantity{*value, unit};
 }
 
-// Pulses come as a Decimal from the configuration, where "5.0" is whole, too.
+// The configuration's pulses are Decimals, and there "5.0" is a whole number too.
 std::int64_t whole(const Quantity& quantity) { return to_pulses(quantity, Scale{}).value_or(0); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Distances, speeds and axes as callers write them, as exact quantities; and back.
+// Conversion of distances, speeds, axes and durations between callers' messages and exact quantities.
 #pragma once
 
 #include <google/protobuf/duration.pb.h>
@@ -12,7 +12,7 @@
 
 namespace axisgate::proto {
 
-// invalid_request where no amount is given or it is not an exact decimal.
+// Fails with invalid_request if no amount is given, or if it is not an exact decimal.
 Result<Quantity> to_quantity(const v1::Distance& distance);
 Result<Quantity> to_quantity(const v1::Speed& speed);
 
@@ -20,14 +20,14 @@ v1::Distance to_distance(const Quantity& quantity);
 v1::Speed to_speed(const Quantity& quantity);
 v1::Unit to_proto(Unit unit);
 
-// As api::checked_axes().
+// Fails like api::checked_axes().
 Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
 
-// Below zero for one that is, or that is none; 200 years for anything longer.
+// Negative if `duration` is negative or invalid; at most 200 years.
 Duration to_duration(const google::protobuf::Duration& duration);
 google::protobuf::Duration to_proto(Duration duration);
 
-// From no time at all, also for one that is none, to a day.
+// Limits the duration to 0 to 24 hours. A negative or invalid duration becomes 0.
 Duration to_span(const google::protobuf::Duration& duration);
 
 }  // namespace axisgate::proto

@@ -28,7 +28,7 @@ struct PlanePlace {
 
 std::string named(const std::array<int, 2>& axes) { return fmt::format("axes {} and {}", axes[0], axes[1]); }
 
-// `what` is "the center".
+// `what` is the subject of the error messages, such as "the center".
 Result<PlanePlace> to_place(const google::protobuf::RepeatedPtrField<v1::AxisDistance>& parts, std::string_view what) {
   if (parts.size() != 2) {
     return fail(Reason::invalid_request, fmt::format("{} of an arc has two coordinates, not {}", what, parts.size()),

@@ -1,4 +1,4 @@
-// Circles, arcs and helices as callers write them, as a controller takes them.
+// Conversion of circles, arcs and helices from callers' messages.
 #pragma once
 
 #include "axisgate/v1/stage.pb.h"
@@ -7,7 +7,7 @@
 
 namespace axisgate::proto {
 
-// invalid_request where something is missing, doubled or of the wrong axes, unknown_axis; of an amount as
+// Fails with invalid_request if a part is missing, given twice or of the wrong axes, with unknown_axis, and like
 // to_quantity().
 Result<stage::Curve> to_curve(const v1::Arc& arc);
 

@@ -18,7 +18,7 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-// The number times 10 to the power of `digits`; as it is written, where it is no number.
+// Returns the number times 10 to the power of `digits`, or `text` unchanged if it is not a number.
 std::string times_ten(const std::string& text, int digits) {
   const Result<Decimal> number = parse_decimal(text);
   if (!number) return text;
@@ -28,7 +28,7 @@ std::string times_ten(const std::string& text, int digits) {
   return shifted;
 }
 
-constexpr int kMicro = 3, kMilli = 6;  // in nanometres
+constexpr int kMicro = 3, kMilli = 6;  // decimal places from nanometres
 
 void normalise(v1::Distance& distance) {
   switch (distance.amount_case()) {

@@ -1,4 +1,4 @@
-// Leases as callers write and read them.
+// Conversion of leases from and to callers' messages.
 #pragma once
 
 #include "axisgate/v1/control.pb.h"
@@ -9,15 +9,15 @@
 
 namespace axisgate::proto {
 
-// unknown_axis, invalid_request.
+// Fails with unknown_axis or invalid_request.
 Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms);
 
-// With its token: for its holder.
+// Includes the token, so the result is for the holder only.
 v1::Lease to_proto(const server::Lease& lease);
 
 v1::Latch to_proto(const server::Latch& latch);
 
-// Without tokens.
+// Leaves out the tokens.
 v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board);
 
 }  // namespace axisgate::proto

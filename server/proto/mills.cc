@@ -14,7 +14,7 @@
 namespace axisgate::proto {
 namespace {
 
-constexpr double kLongestStock = 10'000;  // mm; as axisctl has it
+constexpr double kLongestStock = 10'000;  // mm; the same limit as in axisctl
 
 using rml1::JobState;
 using rml1::SenderState;
@@ -61,7 +61,7 @@ v1::JobSetup setup_of(const rml1::JobSetup& setup) {
 
 }  // namespace
 
-// Of the others none is seen: a job that has ended does not run.
+// The other states cannot occur here: a job that has ended does not run.
 v1::SendingState to_sending_state(SenderState state) {
   switch (state) {
     case SenderState::sending:

@@ -1,4 +1,4 @@
-// Mills and their jobs, as callers read them.
+// Conversion of mills and their jobs to and from callers' messages.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace axisgate::proto {
 
-// Of the mill with that name in the configuration. `clock`: by which its times are shown.
+// `mill` is the mill's name in the configuration. `clock` converts the job's times to wall time.
 v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock);
 v1::Job to_proto(const api::CurrentJob& job);
 v1::SendingState to_sending_state(rml1::SenderState state);
 v1::JobPlaceRange to_proto(const rml1::PlaceRange& range);
 v1::RunOn to_proto(const rml1::RunOn& run_on);
-// Of what runs; without a job where nothing does.
+// Empty message if no job runs.
 v1::RunningJob to_proto(const api::CurrentRun& run);
 v1::Mill to_proto(const api::MillState& state);
-// As it is among all devices.
+// Returns the mill's entry in the list of all devices.
 v1::Device device_of(const api::MillState& state);
 
 rml1::JobSetup to_setup(const v1::JobSetup& proto);
-// invalid_request, where it names no act.
+// Fails with invalid_request if the request names no act.
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
-// Of the first message of a job. invalid_request, where it has both a tool and parts, an unknown streaming, or a
-// workpiece without size.
+// Reads the first message of a job. Fails with invalid_request if the job has both a tool and parts, an unknown
+// streaming, or a workpiece without a valid size.
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
-// 0 is no line, and the first column.
+// A `line` of 0 means no line; a `column` of 0 means the first one.
 api::LineToChoose to_line(std::int64_t line, std::int64_t column);
 api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request);
 

@@ -1,4 +1,4 @@
-// Saved positions as callers write and read them.
+// Conversion of saved positions from and to callers' messages.
 #pragma once
 
 #include "axisgate/v1/position.pb.h"
@@ -7,7 +7,7 @@
 
 namespace axisgate::proto {
 
-// invalid_request.
+// Fails with invalid_request.
 Result<api::PositionWish> to_wish(const v1::SavePositionRequest& request);
 
 v1::Position to_proto(const api::NamedPosition& position);

@@ -31,7 +31,7 @@ Result<api::AxisChange> to_axis_change(const v1::AxisSettings& settings) {
   return change;
 }
 
-// Below zero where it is no proper duration: that is out of range.
+// Negative, and so out of range, if `duration` is not valid.
 Duration to_settling(const google::protobuf::Duration& duration) {
   return duration.nanos() < 1'000'000'000 ? to_duration(duration) : Duration(-1);
 }

@@ -1,4 +1,4 @@
-// Settings as callers write and read them.
+// Conversion of settings from and to callers' messages.
 #pragma once
 
 #include "axisgate/v1/settings.pb.h"
@@ -8,7 +8,7 @@
 
 namespace axisgate::proto {
 
-// Of amounts as to_quantity(); invalid_request.
+// Fails with invalid_request, and for an amount like to_quantity().
 Result<api::SettingsChange> to_change(const v1::Settings& settings);
 Result<api::NewCoordinates> to_coordinates(const v1::SetCoordinatesRequest& request);
 

@@ -1,4 +1,4 @@
-// Moves, path segments and scans as callers write them, as the api takes them.
+// Conversion of moves, path segments and scans from callers' messages.
 #pragma once
 
 #include "axisgate/v1/stage.pb.h"
@@ -8,11 +8,11 @@
 
 namespace axisgate::proto {
 
-// unknown_axis, invalid_request.
+// Fails with unknown_axis or invalid_request.
 Result<api::Move> to_move(const v1::MoveRequest& request);
 Result<api::Speeds> to_speeds(const v1::Profile& profile);
 Result<stage::Segment> to_segment(const v1::Segment& segment);
-// Without its context.
+// Ignores the request's context.
 Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request);
 
 }  // namespace axisgate::proto

@@ -43,7 +43,7 @@ v1::MotionState to_motion_state(MotionState state) {
   return static_cast<v1::MotionState>(static_cast<int>(state) + 1);
 }
 
-// Empty where it is not known or the axis is shown in a unit that does not fit its scale.
+// Empty if the position is unknown, or if the axis is shown in a unit that does not fit its scale.
 std::string position_text(std::optional<std::int64_t> pulses, const std::optional<Scale>& scale, Unit unit) {
   if (!pulses || (unit != Unit::pulses && !scale)) return "";
   const Result<Decimal> shown = from_pulses(*pulses, unit, scale.value_or(Scale{}));
@@ -136,7 +136,7 @@ void fill_stops(const std::string& device, const stage::State& state, v1::Device
   *proto.mutable_emergency_latch()->mutable_time() = to_proto(server::to_wall(state.emergency->at));
 }
 
-// Each fact's own place in an Event.
+// An EventFiller writes each type of fact to its field of an Event.
 struct EventFiller {
   const server::FactRecord& record;
   v1::Event& event;

@@ -1,4 +1,4 @@
-// What the gateway knows, as callers read it: devices, motions, facts.
+// Conversion of devices, motions and facts to callers' messages.
 #pragma once
 
 #include <google/protobuf/timestamp.pb.h>
@@ -22,12 +22,13 @@ namespace axisgate::proto {
 
 google::protobuf::Timestamp to_proto(server::WallTime time);
 
-// With the state's age as of now.
 void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 
+// Includes the age of the state at the time of the call.
 v1::Device to_proto(const server::Stage& device, const stage::State& state);
 
-// `revision` is that of the newest fact about the motion, 0 when not known; its times are shown by `clock`.
+// `revision` is that of the newest fact about the motion, 0 if unknown. `clock` converts the motion's times to wall
+// time.
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
                     const server::Moment& clock);
 v1::Motion to_proto(const api::CurrentMotion& motion);

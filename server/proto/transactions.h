@@ -1,4 +1,4 @@
-// Transactions of a caller's own lines, as messages.
+// Conversion of transactions of a caller's own lines from and to messages.
 #pragma once
 
 #include "axisgate/v1/command.pb.h"
@@ -10,7 +10,7 @@ namespace axisgate::proto {
 
 api::Transaction to_transaction(const v1::ExecuteRequest& request);
 
-// Of one that is not the end. The device's texts in it are escaped.
+// `event` is not the end of the transaction. The device's texts are escaped in the result.
 v1::ExecuteResponse to_response(const stage::ExecuteEvent& event);
 
 v1::Command to_proto(const stage::CommandInfo& info);

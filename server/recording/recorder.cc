@@ -11,7 +11,7 @@
 namespace axisgate::server {
 namespace {
 
-// Copied while the strand may wait: some microseconds.
+// Bytes copied at once. The strand may wait a few microseconds meanwhile.
 constexpr std::size_t kPortionBytes = 16 << 10;
 
 }  // namespace

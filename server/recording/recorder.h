@@ -1,4 +1,4 @@
-// The recording of one device's line: made on its strand, read at leisure.
+// The recording of one device's line: made on the device's strand, read by other threads.
 #pragma once
 
 #include <prometheus/counter.h>
@@ -13,37 +13,37 @@
 
 namespace axisgate::server {
 
-// Of a recording that begins now.
+// Returns the header of a recording that begins now.
 stage::RecordingHeader beginning_now(stage::RecordingHeader header);
 stage::RecordingHeader recording_header(const stage::Profile& profile);
 
 class DeviceRecorder {
  public:
-  // `drops` counts the lines that a reader lost, on its thread. It outlives this.
+  // `drops` counts the lines that readers lost, on the reader's thread. It must outlive this object.
   DeviceRecorder(const stage::RecordingHeader& header, Executor readers, prometheus::Counter& drops,
                  std::size_t bytes_kept = RecordingRing::kBytesKept);
 
-  // On the device's strand.
+  // Must be called on the device's strand.
   void on_event(const stage::Event& event, TimePoint now) { recorder_.on_event(event, now); }
-  // Finishes the line under way, so that readers see it.
+  // Ends the current line, so that readers see it.
   void flush() { recorder_.flush(); }
-  // flush(), and where what is recorded from then on begins.
+  // Calls flush() and returns the beginning of a recording of later lines only.
   RecordingRing::Beginning begin();
 
-  // The rest from any thread.
+  // The other functions are thread safe.
 
   const RecordingRing& ring() const { return ring_; }
   std::unique_ptr<WakeUps::Subscription> subscribe(std::function<void()> wake) {
     return ring_.subscribe(std::move(wake));
   }
 
-  // One reader's way through the recording. Not thread safe by itself; the recorder outlives it.
+  // A Reader is the position of one reader in the recording. Not thread safe; the recorder must outlive it.
   class Reader {
    public:
     Reader(DeviceRecorder& recorder, RecordingRing::Position from) : recorder_(&recorder), position_(from) {}
 
-    // The next lines, each with its \n; empty: there are none yet. In the place of those that are no longer kept, as
-    // the reader was too slow, stands a remark that says so, and a new header; they are counted.
+    // Returns the next lines, each with its \n; empty if there are none yet. If the reader was too slow and lines are
+    // no longer kept, a remark about the loss and a new header replace them, and they are counted.
     std::string next();
 
     const RecordingRing::Position& position() const { return position_; }

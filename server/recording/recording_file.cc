@@ -17,7 +17,7 @@ namespace axisgate::server {
 namespace {
 
 constexpr const char* kBeforeSuffix = ".1";
-constexpr mode_t kMode = 0640;  // it shows who requested what
+constexpr mode_t kMode = 0640;  // restricted, because the file shows who requested what
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void RecordingFile::run() {
   }
 }
 
-// For something to write or, where that failed, for a better time. False: it is the last time.
+// Waits for lines to write or, after an error, for the retry pause. Returns false if this is the last round.
 bool RecordingFile::wait() {
   std::unique_lock lock(mutex_);
   if (complaint_.empty()) {
@@ -77,13 +77,13 @@ bool RecordingFile::open() {
     complain("opened");
     return false;
   }
-  // A daemon that was killed may have left half a line, which the head must not go on.
+  // A daemon that was killed may have left an incomplete line; the header must start on a new one.
   size_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(file_.get(), 0, SEEK_END)));
   if (size_ > 0) due_.insert(0, "\n");
   return true;
 }
 
-// Both files contain what the ring keeps, so that each is a complete recording.
+// Both files contain the lines that the ring keeps, so that each is a complete recording.
 void RecordingFile::begin_another() {
   const std::string before = path_ + kBeforeSuffix;
   if (::rename(path_.c_str(), before.c_str()) != 0) return complain("renamed");

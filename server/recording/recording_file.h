@@ -16,18 +16,18 @@
 
 namespace axisgate::server {
 
-// Appends on a thread of its own, which reads the recording as any reader does. A slow or full disk delays nothing
-// else. What was lost is noted in the file and counted. A file that cannot be written is tried again every few seconds;
-// the log says why. At half of `bytes_max` the file is renamed to PATH.1, in the place of the one before, and a new one
-// begins with what the ring keeps.
+// A RecordingFile reads the recording like any reader and appends it to the file on a separate thread. A slow or full
+// disk delays nothing else; lost lines are noted in the file and counted. A file that cannot be written is tried again
+// every few seconds, and the log gives the reason. At half of `bytes_max`, the file is renamed to PATH.1, replacing the
+// previous PATH.1, and a new file begins with the lines that the ring keeps.
 class RecordingFile {
  public:
   static constexpr Duration kRetryPause = std::chrono::seconds(5);
 
-  // Of all that is kept. `recorder` outlives this.
+  // Records all lines that the ring keeps, and all later ones. `recorder` must outlive this object.
   RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max, Duration retry_pause = kRetryPause)
       : RecordingFile(std::move(path), recorder, bytes_max, retry_pause, recorder.ring().oldest()) {}
-  // Writes what has been recorded until now, if it can be written.
+  // Writes the remaining lines, if the file can be written.
   ~RecordingFile();
 
  private:
@@ -42,13 +42,13 @@ class RecordingFile {
 
   DeviceRecorder& recorder_;
   const std::string path_;
-  const std::uint64_t bytes_max_;  // of both files
+  const std::uint64_t bytes_max_;  // of both files together
   const Duration retry_pause_;
   DeviceRecorder::Reader reader_;
   Descriptor file_;
   std::uint64_t size_ = 0;
-  std::string due_;        // read, and not written yet
-  std::string complaint_;  // what was logged last; empty: all is well
+  std::string due_;        // read, but not written yet
+  std::string complaint_;  // newest complaint in the log; empty: no error
   std::mutex mutex_;
   std::condition_variable changed_;
   bool pending_ = true;

@@ -5,7 +5,7 @@
 
 namespace axisgate::server {
 
-// Written to at once, so that the memory is the daemon's from the start and not only once it is needed.
+// The memory is written to at once, so that the system provides it at the start and not only when it is needed.
 RecordingRing::RecordingRing(stage::RecordingHeader header, Executor readers, std::size_t bytes_kept)
     : header_(std::move(header)), bytes_(bytes_kept, '\0'), wake_ups_(std::move(readers)) {}
 

@@ -1,4 +1,4 @@
-// The newest lines of a device's recording, for readers at their own pace.
+// The newest lines of a device's recording, for readers at different speeds.
 #pragma once
 
 #include <cstdint>
@@ -13,55 +13,55 @@
 
 namespace axisgate::server {
 
-// Thread safe. Appending never waits for a reader, but for the copying of one portion. All memory is taken at the
+// Thread safe. Appending never waits for a reader, except while a reader copies one portion. All memory is taken at the
 // start.
 class RecordingRing {
  public:
-  // Some ten minutes of an axis that moves, hours of one that rests.
+  // About ten minutes of a moving axis, or hours of a stationary one.
   static constexpr std::size_t kBytesKept = 4 << 20;
 
-  // `header` is that of the whole recording.
+  // `header` is the header of the whole recording.
   RecordingRing(stage::RecordingHeader header, Executor readers, std::size_t bytes_kept = kBytesKept);
 
-  // `line` is without a line end. The oldest lines make room; of a line that is too long for the whole ring only the
-  // beginning is kept.
+  // Adds `line`, which has no line end. The oldest lines are removed to make room; a line longer than the whole ring is
+  // cut.
   void append(std::string_view line);
 
-  // Where a reader is: just before a line. Counts on as long as the ring lives.
+  // Position of a reader, just before a line. Its numbers ascend as long as the ring lives.
   struct Position {
     std::uint64_t byte = 0;
     std::uint64_t line = 0;
     friend bool operator==(const Position&, const Position&) = default;
   };
-  // A place to begin, and what to say there first so that what follows is a recording.
+  // Start of a recording: a position, and the header to put before its lines.
   struct Beginning {
     std::string header;  // lines, each with its \n
     Position position;
   };
   Beginning oldest() const;
-  Position newest() const;  // behind the newest line
+  Position newest() const;  // after the newest line
 
   struct Reading {
-    std::string text;  // whole lines, each with its \n; empty: there is nothing new
-    Position next;     // where to read on
-    // Lines from `from` on that were no longer kept; then the text begins with a header.
+    std::string text;  // whole lines, each with its \n; empty: no new lines
+    Position next;     // position for the next read
+    // Number of lines from `from` on that were no longer kept; if not 0, the text begins with a header.
     std::uint64_t lost = 0;
   };
-  // At most `bytes_max`, but one line at least; a header comes on top.
+  // Reads at most `bytes_max`, but at least one line; a header is not counted.
   Reading read(Position from, std::size_t bytes_max) const;
 
-  // `wake` is called after lines were appended, perhaps once for many.
+  // Calls `wake` after lines were appended, possibly once for many.
   std::unique_ptr<WakeUps::Subscription> subscribe(std::function<void()> wake);
 
  private:
-  std::uint64_t end_of_line(std::uint64_t byte) const;  // the byte behind its \n
+  std::uint64_t end_of_line(std::uint64_t byte) const;  // the byte after its \n
   void put(std::string_view text);
   void drop_oldest();
   std::string copy(std::uint64_t from, std::uint64_t to) const;
 
   mutable std::mutex mutex_;
   stage::RecordingHeader header_;  // of a recording that begins with the oldest line
-  std::string bytes_;              // the byte at position p stands at p modulo its size
+  std::string bytes_;              // the byte at position p is at index p modulo the size
   Position oldest_, newest_;
   WakeUps wake_ups_;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kById = "/dev/serial/by-id/";
 
-// Of a caller's name, in front of the name itself; empty where it has none.
+// Returns the identification before a caller's name, such as "unix ". Empty if there is none.
 std::string_view way_of(std::string_view caller) {
   for (const std::string_view way : {"unix ", "cert ", "tcp ", "token "}) {
     if (caller.starts_with(way)) return way;
@@ -36,13 +36,14 @@ void replace_all(std::string& text, std::string_view secret, std::string_view st
   }
 }
 
-// Where the text ends that is quoted from `begin` on (device/core/escape.h): its closing quote, or the end.
+// Returns the end of the text that is quoted from `begin` on (device/core/escape.h): its closing quote, or the end of
+// `text`.
 std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   while (begin < text.size() && text[begin] != '"') begin += text[begin] == '\\' ? 2 : 1;
   return std::min(begin, text.size());
 }
 
-// What the controller sent, its pieces joined across lines, and where in the recording's text each character stands.
+// Text that the controller sent, joined across lines, with the position of each character in the recording.
 struct Received {
   explicit Received(std::string_view lines) {
     constexpr std::string_view kPiece = " < \"";
@@ -59,7 +60,7 @@ struct Received {
   std::vector<std::size_t> places;
 };
 
-// A stand-in of a number is as long as the number.
+// The stand-in of a number has the length of the number.
 void replace_number(std::string& lines, const Received& received, std::string_view number, std::string_view stand_in) {
   for (std::size_t at = received.text.find(number); at != std::string::npos; at = received.text.find(number, at + 1)) {
     if (!whole_number(received.text, at, number.size())) continue;
@@ -88,7 +89,7 @@ std::string Redactor::hide(Kind kind, const std::string& secret) {
 std::string Redactor::stand_in(Kind kind, const std::string& secret) {
   const int count = ++counts_[static_cast<std::size_t>(kind)];
   switch (kind) {
-    case Kind::serial_number:  // still digits, and as many: a recording can be replayed
+    case Kind::serial_number:  // still digits of the same number, so that the recording can be replayed
       return fmt::format("{:0{}}", count, secret.size());
     case Kind::user:
       return fmt::format("user-{}", count);
@@ -164,7 +165,7 @@ std::string Redactor::summary() const {
   return text;
 }
 
-// Also where what follows in an answer is missing.
+// Also learns the number from an incomplete answer.
 void Redactor::learn_serial_numbers(std::string_view text, std::string_view before) {
   constexpr std::size_t kDigitsMin = 4;
   for (std::size_t at = text.find(before); at != std::string_view::npos; at = text.find(before, at)) {
@@ -174,7 +175,7 @@ void Redactor::learn_serial_numbers(std::string_view text, std::string_view befo
   }
 }
 
-// An exchange with its cause: 12.345678 #17 poll "unix alice" > "Q:S\r\n". The way stays.
+// Hides the name in an exchange such as 12.345678 #17 poll "unix alice" > "Q:S\r\n". The identification stays.
 void Redactor::hide_callers(std::string& lines) {
   for (std::size_t line = 0; line < lines.size(); line = std::min(lines.find('\n', line), lines.size() - 1) + 1) {
     std::size_t caller = std::min(lines.find('"', line), lines.size()) + 1;

@@ -1,4 +1,4 @@
-// Removes from a text for outsiders what identifies people and single machines.
+// Removal of names and of single machines' identifiers from a text for outsiders.
 #pragma once
 
 #include <array>
@@ -11,25 +11,25 @@
 
 namespace axisgate::server {
 
-// Each secret has one stand-in, the same throughout, so that a reader still sees what belongs together. Device names,
-// axis names and tty names such as /dev/ttyUSB0 stay.
+// Each secret has one stand-in throughout, so that a reader can still recognise related places. Device names, axis
+// names and tty names such as /dev/ttyUSB0 stay.
 class Redactor {
  public:
   enum class Kind { serial_number, user, host, path };
 
-  // The stand-in of `secret`, which from now on redact() puts in its place. What is none stays as it is: the empty
-  // text, and a path to a tty without a serial number in it.
+  // Returns the stand-in of `secret`, with which redact() will replace it. Returns the text itself if it is no secret:
+  // an empty text, or a path to a tty without a serial number.
   std::string hide(Kind kind, const std::string& secret);
 
-  // With every secret that is known replaced. In whole lines of a recording (device/stage/recording/recording.h)
-  // callers and the serial number in an answer to *IDN? need not be known before, and a number is also found where it
-  // came in pieces.
+  // Replaces every known secret. In whole lines of a recording (device/stage/recording/recording.h), callers and the
+  // serial number in an answer to *IDN? are found even if they are not known, and a number is found even if it came in
+  // pieces.
   std::string redact(std::string_view text);
 
-  // With everything hidden that is a secret in it.
+  // Hides every secret in the configuration.
   Config redact(Config config);
 
-  // "2 serial numbers, 1 user": how many of each kind were hidden.
+  // Returns the number of hidden secrets of each kind: "2 serial numbers, 1 user".
   std::string summary() const;
 
  private:
@@ -42,7 +42,7 @@ class Redactor {
   void learn_serial_numbers(std::string_view text, std::string_view before);
   void hide_callers(std::string& lines);
 
-  std::vector<Secret> secrets_;  // the longest first, since one may be part of another; users are not among them
+  std::vector<Secret> secrets_;  // the longest first, since one secret may be part of another; without users
   std::map<std::string, std::string> users_;
   std::array<int, 4> counts_{};  // by Kind
 };

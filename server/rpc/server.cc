@@ -44,7 +44,7 @@ namespace {
 
 constexpr auto kShutdownWait = std::chrono::milliseconds(500);
 
-// gRPC's own lines tell nothing that ours do not, and would stand among them unasked.
+// gRPC's log lines add no information to the daemon's, so they are logged at debug level only.
 void log_quietly(gpr_log_func_args* line) { server::log::debug("gRPC: {}", line->message); }
 
 }  // namespace
@@ -55,7 +55,7 @@ class Server::Services {
            std::unique_ptr<server::Listener> listener);
   ~Services();
 
-  // Takes connections from now on. internal: gRPC does not start.
+  // Starts to take connections. Fails with internal if gRPC does not start.
   Result<void> serve(server::Gateway& gateway, const server::ConnectionLimits& limits);
   server::Listener& listener() { return *listener_; }
   std::vector<server::Watchdog::Thread> threads();
@@ -143,7 +143,7 @@ Result<void> Server::Services::serve(server::Gateway& gateway, const server::Con
 void Server::Services::build() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
-  // By estimates of the bandwidth gRPC would raise the length of frames, which the front bounds.
+  // gRPC would otherwise estimate the bandwidth and raise the length of frames, which the front bounds.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{
            &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &mills_,
@@ -156,16 +156,16 @@ void Server::Services::build() {
   interceptors.push_back(rpc_metrics_.interceptor());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.SetMaxReceiveMessageSize(message_bytes_max_);
-  // The front bounds them.
+  // The front bounds metadata.
   constexpr int kMetadataBytes = 64 << 10;
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMetadataBytes);
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
-  // The front knows who calls, and what the caller may do.
+  // The front identifies and authorizes the caller.
   acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, grpc::InsecureServerCredentials());
   grpc_ = builder.BuildAndStart();
 }
 
-// gRPC's threads answer where a call of its own passes through them.
+// gRPC's threads answer when a call that the daemon makes to itself has passed through them.
 std::vector<server::Watchdog::Thread> Server::Services::threads() {
   const auto ask_listener = [strand = listener_->strand()](std::function<void()> answer) {
     boost::asio::post(strand, std::move(answer));
@@ -186,7 +186,7 @@ std::vector<server::Watchdog::Thread> Server::Services::threads() {
 }
 
 void Server::Services::enter(Descriptor connection) {
-  // gRPC would not close what is handed to it now.
+  // gRPC would not close a connection that is handed over now.
   if (ending_) return;
   grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
   parameters.fd = connection.release();
@@ -206,14 +206,14 @@ Server::Services::~Services() {
   if (grpc_ != nullptr) {
     grpc_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
     grpc_->Wait();
-    // How a stream ended may still be on its way through the front.
+    // The ends of streams may still be in the front's buffers.
     on_the_front([this](const std::function<void()>& done) { front_.when_grpc_has_left(done); });
   }
   listener_->stop();
 }
 
-// Waits until `act`, on the front's strand, has called what it was given. A client that does not read is not waited
-// for.
+// Runs `act` on the front's strand and waits until `act` has called `done`, at most kShutdownWait: a client that does
+// not read must not delay the end.
 void Server::Services::on_the_front(std::function<void(const std::function<void()>& done)> act) {
   const auto acted = std::make_shared<std::promise<void>>();
   boost::asio::post(listener_->strand(), [acted, act = std::move(act)] { act([acted] { acted->set_value(); }); });

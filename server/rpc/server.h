@@ -1,5 +1,5 @@
-// The gRPC server with all services, on a loopback address, a Unix socket and, if configured, the network. What it is
-// made of stands in server.cc: gRPC's headers take longer to read than everything else of a file that needs a Server.
+// The gRPC server with all services, on a loopback address, a Unix socket and, if configured, the network. Its members
+// are in server.cc, because gRPC's headers would slow the compilation of every file that includes this one.
 #pragma once
 
 #include <memory>
@@ -19,21 +19,21 @@ namespace axisgate::rpc {
 
 class Server {
  public:
-  // Serves at once where the gateway's configuration says. Refuses an address that somebody else serves, and a socket
-  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only. `gateway` outlives the
-  // server, and `access` and `positions` the gateway.
+  // Serves at once at the addresses of the gateway's configuration. Fails if another process serves an address, or if a
+  // socket's directory cannot be trusted. Connections beyond `limits` get a stop only. `gateway` must outlive the
+  // server; `access` and `positions` must outlive the gateway.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
                                                server::SavedPositions& positions,
                                                const server::ConnectionLimits& limits);
-  // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
+  // Ends all calls and waits until none is left. No call reaches the gateway after that.
   ~Server();
 
-  const server::TcpAddress& listen() const;  // with the port really taken
+  const server::TcpAddress& listen() const;  // with the port actually taken
   const std::string& socket() const;
   const std::optional<server::TcpAddress>& network() const;
-  server::ConnectionCounts connections();  // from any thread
+  server::ConnectionCounts connections();  // thread safe
 
-  // Those that serve connections and calls, as long as the server lives.
+  // Threads that serve connections and calls; valid as long as the server lives.
   std::vector<server::Watchdog::Thread> threads();
 
  private:

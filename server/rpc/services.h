@@ -1,4 +1,4 @@
-// What is served, by its names.
+// Names of the services and methods that the daemon serves.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ inline constexpr std::array<std::string_view, 12> kApiServices = {
     "axisgate.v1.ControlService",   "axisgate.v1.AccessService",   "axisgate.v1.SettingService",
     "axisgate.v1.SimulatorService", "axisgate.v1.PositionService", "axisgate.v1.MillService"};
 
-// Those of gRPC itself.
+// gRPC's own services.
 inline constexpr std::array<std::string_view, 2> kCommonServices = {"grpc.health.v1.Health",
                                                                     "grpc.reflection.v1alpha.ServerReflection"};
 
@@ -22,7 +22,7 @@ struct ServedMethod {
   std::string name;  // "axisgate.v1.StageService/Move"
   bool streams = false;
 };
-// Of all these services.
+// Methods of all these services.
 std::vector<ServedMethod> served_methods();
 
 }  // namespace axisgate::rpc

@@ -1,4 +1,4 @@
-// Answers of the api as the front sends them.
+// Answers of the API in the form in which the front sends them.
 #pragma once
 
 #include <functional>
@@ -18,10 +18,10 @@ namespace axisgate::rpc {
 
 using Wake = std::function<void()>;
 
-// One reply, which may come from any thread.
+// An answer with one reply, which may come from any thread.
 class OneAnswer final : public front::Answer {
  public:
-  // Where it is left. It may outlive the answer.
+  // A Slot keeps the reply until take(). It may outlive the answer.
   class Slot {
    public:
     explicit Slot(Wake wake) : wake_(std::move(wake)) {}
@@ -56,8 +56,8 @@ class OneAnswer final : public front::Answer {
   const std::shared_ptr<Slot> slot_;
 };
 
-// `ask` is called with what the api answers to; `fill` makes a message of the outcome.
-//   void ask(api::Answer<Outcome>)
+// Calls `ask` with the receiver of the outcome; `fill` makes the message from the outcome.
+//    void ask(api::Answer<Outcome>)
 template <class Outcome, class Fill, class Ask>
 std::unique_ptr<front::Answer> one_answer(std::shared_ptr<Served> served, Wake wake, Fill fill, Ask ask) {
   const auto slot = std::make_shared<OneAnswer::Slot>(std::move(wake));
@@ -67,14 +67,14 @@ std::unique_ptr<front::Answer> one_answer(std::shared_ptr<Served> served, Wake w
   return std::make_unique<OneAnswer>(slot);
 }
 
-// What is known at once.
+// An answer whose reply is known at once.
 inline std::unique_ptr<front::Answer> answer_now(front::Reply reply, Wake wake) {
   const auto slot = std::make_shared<OneAnswer::Slot>(std::move(wake));
   slot->leave(std::move(reply));
   return std::make_unique<OneAnswer>(slot);
 }
 
-// A message for each item of a subscription.
+// An answer with one message for each item of a subscription.
 template <class Item, class Fill>
 class StreamAnswer final : public front::Answer {
  public:
@@ -108,7 +108,7 @@ class StreamAnswer final : public front::Answer {
   bool ended_ = false;
 };
 
-// One that is null has nothing to say.
+// A null subscription gives an empty stream that ends at once.
 template <class Item, class Fill>
 std::unique_ptr<front::Answer> stream_answer(const api::Opened<Item>& subscription, std::shared_ptr<Served> served,
                                              Fill fill, Wake wake) {

@@ -1,4 +1,4 @@
-// The token of a call.
+// The token in a call's headers.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,8 @@
 
 namespace axisgate::rpc {
 
-// In the value of `authorization`; nothing without one, empty text where that is something else.
+// Returns the token from the value of `authorization`. nullopt without the header; an empty string if it is not a
+// bearer token.
 std::optional<std::string> token_in(const std::optional<std::string_view>& authorization);
 
 }  // namespace axisgate::rpc

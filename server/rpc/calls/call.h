@@ -1,4 +1,4 @@
-// What comes with a call, as the api takes it.
+// Conversion of a call's headers and context to the types of the API.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -12,19 +12,19 @@
 
 namespace axisgate::rpc {
 
-// Of a call that was let in: its token, or whom the front knows by the connection.
+// Returns the call's token or, without one, the caller that the front identified by the connection.
 api::Credential credential_of(const grpc::ServerContextBase& call);
-// By the connection alone, as the front says: who, and from where.
+// Returns the caller and their source as the front identified them by the connection.
 front::Peer peer_of(const grpc::ServerContextBase& call);
 
-// What `context` says, by this caller.
+// Builds the Call of a request from its `context`.
 api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline, const v1::CallContext& context);
 
-// Of a question, which has no context of its own.
+// Builds the Call of a request; the first form is for requests without a context.
 api::Call to_call(const grpc::CallbackServerContext& call);
 api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext& context, bool validate_only = false);
 
-// Of a request with a context and validate_only.
+// Builds the Call of a request with a context and validate_only.
 template <class Request>
 api::Call to_checked_call(const grpc::CallbackServerContext& call, const Request& request) {
   api::Call made = to_call(call, request.context(), request.validate_only());

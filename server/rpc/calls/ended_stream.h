@@ -1,4 +1,4 @@
-// A stream that ends at once, most often with a problem.
+// A stream that ends at once, usually with a problem.
 #pragma once
 
 #include <grpcpp/support/status.h>

@@ -1,4 +1,4 @@
-// Whether a client that sends no more has sent all, or has broken off.
+// Distinction between a client that has sent everything and a client whose connection broke off.
 #pragma once
 
 #include <chrono>
@@ -9,14 +9,15 @@
 
 namespace axisgate::rpc {
 
-// gRPC ends the reading alike for a client that has sent all and for one that broke off; only the second is then
-// cancelled, at once but after.
+// gRPC ends the reading in the same way in both cases. It cancels only the call of a client that broke off, and only
+// after the end of the reading.
 class HalfClose {
  public:
-  // It outlives this.
+  // `gateway` must outlive this object.
   explicit HalfClose(server::Gateway& gateway) : gateway_(gateway) {}
 
-  // Calls `then` on the readers' thread when a client that broke off would have been cancelled.
+  // Calls `then` on the readers' thread after kBreakOffWait. By then, gRPC has cancelled the call of a client that
+  // broke off.
   void wait(std::function<void()> then) const { gateway_.timeouts().after(kBreakOffWait, std::move(then)); }
 
  private:

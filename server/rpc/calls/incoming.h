@@ -1,4 +1,4 @@
-// A message that a stream reads, and whether one came that cannot be read.
+// The message that a stream reads, with detection of messages that cannot be parsed.
 #pragma once
 
 #include <google/protobuf/message.h>
@@ -6,29 +6,29 @@
 
 namespace axisgate::rpc {
 
-// gRPC 1.51 ends the reading of a stream alike for a client that has sent all and for a message that cannot be parsed.
-// Only in the second case did it parse, and parsing clears the message first. So a mark in the message remains in the
-// first case only. One read is outstanding at most.
+// gRPC 1.51 ends the reading of a stream in the same way after the last message and after a message that cannot be
+// parsed. Parsing clears the message first, so a mark in the message stays only if the client has sent everything. At
+// most one read may be outstanding.
 template <class Message>
 class Incoming {
  public:
-  // For StartRead().
+  // Returns the message with the mark, for StartRead().
   Message* marked() {
     message_.Clear();
     message_.GetReflection()->MutableUnknownFields(&message_)->AddVarint(kMark, kMark);
     return &message_;
   }
-  // After a read that has failed: a message came, and cannot be read.
+  // Reports, after a read that failed, whether a message arrived that cannot be parsed.
   bool unreadable() const {
     const auto& fields = message_.GetReflection()->GetUnknownFields(message_);
     return fields.field_count() != 1 || fields.field(0).number() != kMark;
   }
-  // After a read that has not.
+  // Valid after a read that succeeded.
   const Message& operator*() const { return message_; }
   const Message* operator->() const { return &message_; }
 
  private:
-  static constexpr int kMark = 536'870'911;  // the highest number of a field, which proto/ does not use
+  static constexpr int kMark = 536'870'911;  // the highest field number, which proto/ does not use
 
   Message message_;
 };

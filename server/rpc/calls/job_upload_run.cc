@@ -48,7 +48,7 @@ Result<void> JobUploadRun::take() {
 void JobUploadRun::finish() {
   {
     const std::lock_guard lock(mutex_);
-    if (ended_) return;  // its caller broke off
+    if (ended_) return;  // the caller has cancelled the call
   }
   if (upload_ == nullptr) {
     return end(to_status(Problem{.reason = Reason::invalid_request, .message = "the job has no message"}));

@@ -1,4 +1,4 @@
-// The call of SendJob: takes the whole job in, then answers with its place in the queue.
+// The call of SendJob: receives the whole job, then answers with its place in the queue.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -20,7 +20,7 @@ namespace axisgate::rpc {
 class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
                            public std::enable_shared_from_this<JobUploadRun> {
  public:
-  // `context` and `response` are gRPC's and live as long as the call; the others outlive this.
+  // `context` and `response` are gRPC's and live as long as the call. The other objects must outlive this one.
   static JobUploadRun* start(const api::JobSending& sending, const grpc::CallbackServerContext& context,
                              const HalfClose& half_close, v1::SendJobResponse* response);
 
@@ -45,9 +45,9 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
   Incoming<v1::SendJobRequest> incoming_;
   std::unique_ptr<api::JobUpload> upload_;  // null before the first message
   std::string header_digest_;               // of the first message without its data
-  server::spool::Sha256 data_digest_;       // of all data, however it is cut into messages
+  server::spool::Sha256 data_digest_;       // of all data, independent of the division into messages
   std::mutex mutex_;
-  bool ended_ = false;  // under mutex_
+  bool ended_ = false;  // protected by mutex_
   std::shared_ptr<JobUploadRun> self_;
 };
 

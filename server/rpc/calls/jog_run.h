@@ -1,4 +1,4 @@
-// The call of Jog: axes run for as long as its client says so.
+// The call of Jog: axes run as long as the client keeps sending.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -14,7 +14,7 @@
 
 namespace axisgate::rpc {
 
-// Messages are taken in as they come, whatever becomes of the answers: a client that does not read keeps its jog alive.
+// The stream reads messages even if the client does not read the answers: such a client still keeps its jog alive.
 class JogRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>, v1::JogResponse,
                                              api::CurrentMotion> {
  public:
@@ -33,7 +33,7 @@ class JogRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::JogRequ
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
   Incoming<v1::JogRequest> incoming_;
-  bool started_ = false;  // the first message has come
+  bool started_ = false;  // the first message has been received
 };
 
 }  // namespace axisgate::rpc

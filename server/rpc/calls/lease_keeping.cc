@@ -24,13 +24,13 @@ LeaseKeeping::LeaseKeeping(std::shared_ptr<api::LeaseKeeping> keeping)
                                    const server::Lease& lease) { *response.mutable_lease() = proto::to_proto(lease); }),
       keeping_(std::move(keeping)) {}
 
-// A client that has closed its side in order keeps nothing alive any more, and was not cut off.
+// A client that half-closes the stream renews no longer, but its connection did not break off.
 void LeaseKeeping::OnReadDone(bool ok) {
   if (ok) return keeping_->keep(incoming_->device(), incoming_->lease_token());
   incoming_.unreadable() ? keeping_->refuse(not_readable(kKeepMethod)) : keeping_->finish();
 }
 
-// Begun from within gRPC's own callback: elsewhere the call could be over already.
+// The read starts within gRPC's own callback: anywhere else, the call could have ended already.
 void LeaseKeeping::OnWriteDone(bool ok) {
   if (ok) StartRead(incoming_.marked());
   SubscribedStream::OnWriteDone(ok);

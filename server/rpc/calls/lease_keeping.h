@@ -12,7 +12,7 @@
 
 namespace axisgate::rpc {
 
-// One message is taken in when the last has been answered.
+// The stream reads the next message after the previous one has been answered.
 class LeaseKeeping final
     : public SubscribedStream<grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>,
                               v1::KeepLeaseAliveResponse, server::Lease> {

@@ -1,4 +1,4 @@
-// The call of RunPath: takes the whole path in, and reports its progress until its outcome.
+// The call of RunPath: receives the whole path, then reports its progress until its outcome.
 #pragma once
 
 #include <grpcpp/server_context.h>
@@ -32,7 +32,7 @@ class PathRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::RunPat
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
   Incoming<v1::RunPathRequest> incoming_;
-  std::string digest_;  // of all that has come
+  std::string digest_;  // of all messages received up to now
 };
 
 }  // namespace axisgate::rpc

@@ -1,4 +1,4 @@
-// A stream of messages that asks for the next one when the last has gone out, so that nothing queues up per reader.
+// A stream that asks for the next message after the last one was sent, so that no queue forms for a slow reader.
 #pragma once
 
 #include <grpcpp/support/server_callback.h>
@@ -10,17 +10,18 @@
 
 namespace axisgate::rpc {
 
-// `Reactor` is grpc::ServerWriteReactor<Response> or a ServerBidiReactor with it. Held by shared pointers: a wake-up, a
-// timer or a device's answer may come after OnDone. At most one StartWrite is outstanding, and Finish waits for it.
+// `Reactor` is grpc::ServerWriteReactor<Response> or a ServerBidiReactor of Response. Shared pointers own the stream,
+// since a wake-up, a timer or a device's answer may come after OnDone. At most one StartWrite is outstanding, and
+// Finish waits for it.
 template <class Reactor, class Response>
 class PullStream : public Reactor, public std::enable_shared_from_this<PullStream<Reactor, Response>> {
  public:
-  // From any thread, whenever next() may have something new.
+  // Thread safe. Call it whenever next() may have something new.
   void pump() {
     std::unique_lock lock(mutex_);
     if (finished_ || writing_) return;
     Next upcoming = cancelled_ ? Next(grpc::Status::CANCELLED) : next();
-    // gRPC is called without the lock, since it may call back at once.
+    // The lock is released before the call of gRPC, which may call back at once.
     if (auto* message = std::get_if<Response>(&upcoming)) {
       outgoing_ = std::move(*message);
       writing_ = true;
@@ -59,14 +60,14 @@ class PullStream : public Reactor, public std::enable_shared_from_this<PullStrea
   struct Wait {};
   using Next = std::variant<Wait, Response, grpc::Status>;
 
-  // What goes out next: a message, the end, or nothing before the next pump(). Called under mutex_, by one thread at a
-  // time, never after the end.
+  // Returns the next message, the final status, or Wait if there is nothing before the next pump(). Called under
+  // mutex_, by one thread at a time, never after the final status.
   virtual Next next() = 0;
 
-  // The call is over: leave whatever wakes this stream.
+  // Called when the call is over. Overrides unsubscribe from the source that wakes this stream.
   virtual void closed() {}
 
-  // Sends the headers at once, so that a caller knows that its stream stands. Call it when construction has ended.
+  // Sends the headers at once, so that the caller knows that the stream is open. Call it after construction.
   void open() {
     self_ = this->shared_from_this();
     this->StartSendInitialMetadata();
@@ -77,13 +78,13 @@ class PullStream : public Reactor, public std::enable_shared_from_this<PullStrea
     return cancelled_;
   }
 
-  // A shared pointer to the whole object.
+  // Returns a shared pointer to the whole object.
   template <class Derived>
   std::shared_ptr<Derived> self() {
     return std::static_pointer_cast<Derived>(this->shared_from_this());
   }
 
-  std::mutex mutex_;  // of the derived class's state, too
+  std::mutex mutex_;  // also protects the derived class's state
 
  private:
   bool writing_ = false;

@@ -7,9 +7,9 @@
 namespace axisgate::rpc {
 namespace {
 
-// Within the second also where it is late. Each costs an idle daemon 0.1 % of a CPU.
+// Short enough that even a late wake-up comes within the second. Each wake-up costs an idle daemon 0.1 % of a CPU.
 constexpr Duration kPause = std::chrono::milliseconds(700);
-// Nobody serves it, so it is neither counted nor logged.
+// Unserved method, so the calls are neither counted nor logged.
 constexpr const char* kMethod = "/axisgate.QueueWaker/Wake";
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Why calls that gRPC serves do not wait 100 ms when they come a second after the last one: gRPC 1.51 lets each thread
-// of its callbacks sleep for so long after a second without an event. Events come more often than that.
+// Regular wake-ups of gRPC's callback threads. After a second without an event, gRPC 1.51 lets each of these threads
+// sleep for 100 ms, which would delay the next call. The wake-ups keep events less than a second apart.
 #pragma once
 
 #include <grpcpp/channel.h>
@@ -12,7 +12,7 @@ namespace axisgate::rpc {
 
 class QueueWaker {
  public:
-  // `timeouts` outlives it. `itself` leads to the server of this process.
+  // `timeouts` must outlive this object. `itself` leads to the server of this process.
   QueueWaker(const std::shared_ptr<grpc::Channel>& itself, server::Timeouts& timeouts);
 
  private:

@@ -1,5 +1,4 @@
-// One call that the front answers itself, on record like those that gRPC serves: counted, and logged where it is
-// refused.
+// A call that the front answers itself, counted and logged like a call that gRPC serves.
 #pragma once
 
 #include <string>
@@ -12,16 +11,17 @@
 
 namespace axisgate::rpc {
 
-// Open until its end is made; CANCELLED, if it goes without one. Thread safe; only one end is made.
+// A Served is open until one of the functions below ends it, and counts as CANCELLED without an end. Thread safe; only
+// the first end counts.
 class Served {
  public:
-  // Both outlive it.
+  // `metrics` and `refusals` must outlive this object.
   Served(RpcMetrics& metrics, Refusals& refusals, const front::Headers& headers, const front::Peer& peer);
 
   const std::string& method() const { return method_; }
   const api::Credential& credential() const { return credential_; }
 
-  // Its end: with the message of an answer, in order, or with a problem.
+  // End the call and return its reply: a message, the end of a stream, or a problem.
   front::Reply answered(std::string message);
   front::Reply ended(const api::StreamEnd& end);
   front::Reply refused(const Problem& problem) { return ended({.problem = problem}); }
@@ -34,7 +34,7 @@ class Served {
   RpcMetrics::Call call_;
 };
 
-// Of the call with these headers: its path; its token, or whom the front knows by the connection.
+// Return the call's path, and its token or, without one, the caller that the front identified by the connection.
 std::string_view method_of(const front::Headers& headers);
 api::Credential credential_of(const front::Headers& headers, const front::Peer& peer);
 

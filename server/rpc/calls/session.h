@@ -1,4 +1,4 @@
-// Finds the program that a call comes from.
+// Identification of the program that a call comes from.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace axisgate::rpc {
 
-// In the metadata of a call: a random value that a program makes once and sends over all of its connections.
+// Metadata key of a random value that a program makes once and sends over all of its connections.
 inline constexpr const char* kSessionHeader = "axisgate-session";
 
 // Returns the header if it is 8 to 64 letters, digits and hyphens. Otherwise returns the connection's name for an
