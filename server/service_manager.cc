@@ -10,7 +10,7 @@
 namespace axisgate::server {
 namespace {
 
-// The variables of systemd stay in the environment: every notification reads them.
+// Keeps systemd's variables in the environment: every notification reads them.
 constexpr int kKeepVariables = 0;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the daemon says to systemd, by sd_notify(3). Without one, nothing is said.
+// Notifications to systemd by sd_notify(3). Without systemd, the functions do nothing.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ bool is_service();
 
 void notify_ready();
 void notify_alive();
-// From now on the daemon may take `limit` to end, in which it does not say that it is alive.
+// Reports that the daemon is ending and may send no further signs of life for `limit`.
 void notify_stopping(Duration limit);
 
-// By then it must say again that it is alive (WatchdogSec= of the service); nothing where nobody waits for that.
+// Longest time between two signs of life (WatchdogSec= of the service); nullopt if the service manager expects none.
 std::optional<Duration> watchdog_time();
 
 }  // namespace axisgate::server

@@ -11,8 +11,8 @@ namespace axisgate::server {
 namespace {
 
 constexpr Duration kPause = std::chrono::seconds(20);
-// Blocks as long as the longest messages are the system's, and go back to it at once. Otherwise the allocator raises
-// this limit with each that is freed, and they leave holes behind.
+// Blocks of at least this size, such as the longest messages, come from the system and return to it at once. By
+// default, the allocator raises this limit with each freed block, and freed messages leave holes in its memory.
 constexpr int kOfTheSystem = 128 << 10;  // bytes
 
 void look_later(Timeouts& timeouts, std::shared_ptr<SpareMemory> memory) {
@@ -24,7 +24,7 @@ void look_later(Timeouts& timeouts, std::shared_ptr<SpareMemory> memory) {
 
 }  // namespace
 
-// What was given back and is used again has to be given back again.
+// Memory that was given back and used again counts as not given back.
 void SpareMemory::look() {
   const std::size_t unused = allocator_.unused();
   given_back_ = std::min(given_back_, unused);

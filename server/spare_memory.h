@@ -1,6 +1,5 @@
-// Gives memory back to the system that a load has left unused: the allocator keeps it otherwise. The test of whether
-// there is any costs next to nothing; giving back may hold up an allocation for some milliseconds, so it is done only
-// where it is worth it.
+// Returns memory that the allocator keeps unused after a load to the system. The check is cheap, but giving memory back
+// may delay an allocation for several milliseconds, so it happens only for a worthwhile amount.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +13,22 @@ class SpareMemory {
  public:
   static constexpr std::size_t kWorthIt = 4 << 20;  // bytes
 
-  // What the allocator is asked.
+  // Functions of the allocator.
   struct Allocator {
-    std::function<std::size_t()> unused;  // bytes that it holds for nobody, given back or not
+    std::function<std::size_t()> unused;  // unused bytes, including those already given back
     std::function<void()> give_back;
   };
   explicit SpareMemory(Allocator allocator) : allocator_(std::move(allocator)) {}
 
-  // To be called now and then.
+  // Checks for unused memory and gives it back. Call it periodically.
   void look();
 
  private:
   Allocator allocator_;
-  std::size_t given_back_ = 0;  // of what is unused now
+  std::size_t given_back_ = 0;  // part of the unused bytes
 };
 
-// Looks every 20 s, on the thread of the time limits, as long as there are any. It outlives the call.
+// Checks every 20 s on the thread of `timeouts`, which must outlive the call.
 void keep_little_spare_memory(Timeouts& timeouts);
 
 }  // namespace axisgate::server

@@ -68,9 +68,9 @@ class Watchdog::Rounds : public std::enable_shared_from_this<Rounds> {
   const Later later_;
   const std::function<void()> alive_;
 
-  std::mutex asking_;  // held while they are asked; before mutex_, which an answer takes
+  std::mutex asking_;  // locked while the threads are asked; lock it before mutex_, which an answer locks
   std::mutex mutex_;
-  std::set<std::size_t> silent_;  // of threads_, since they were asked
+  std::set<std::size_t> silent_;  // indices of threads_ that have not answered the present question
   bool named_ = false;
   bool ended_ = false;
 };

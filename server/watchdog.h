@@ -1,5 +1,5 @@
-// Says that the daemon runs only if each of its threads does. A thread that hangs leaves no other trace: connections
-// are accepted, and nothing moves or stops.
+// Signs of life of the daemon, which depend on an answer from each of its threads. If a thread hangs, connections are
+// still accepted, but motions neither start nor stop, and no other sign shows it.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,19 @@ namespace axisgate::server {
 
 class Watchdog {
  public:
-  // One that is asked whether it runs.
+  // One thread to watch.
   struct Thread {
     std::string name;  // for the log: "the thread of the lines"
-    // Calls `answer` on that thread, soon. It may be called after the watchdog has gone.
+    // Calls `answer` on the thread soon, possibly after the watchdog has gone.
     std::function<void(std::function<void()> answer)> ask;
   };
-  // Calls the task once when that time has passed, perhaps after this has gone.
+  // Calls the task once after the given time, possibly after the watchdog has gone.
   using Later = std::function<void(Duration, std::function<void()>)>;
 
-  // Asks all of them each `period`, and calls `alive` when all have answered. While one is silent nobody is asked
-  // again, and the log names it once.
+  // Asks all threads each `period`, and calls `alive` when all have answered. While a thread is silent, no thread is
+  // asked again, and the log names the silent thread once.
   Watchdog(std::vector<Thread> threads, Duration period, Later later, std::function<void()> alive);
-  // Nothing is called any more. Waits while threads are asked.
+  // No callback runs after this returns. Waits while threads are being asked.
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kBytes = ".rml", kRecord = ".json", kUpload = "upload-";
 constexpr mode_t kMode = 0600;
 
-// The number before the first dot, or before the end of the line.
+// Returns the number before the first dot or the end of the line.
 std::optional<std::uint64_t> number_in(std::string_view text) {
   text = text.substr(0, text.find_first_of(".\n"));
   std::uint64_t number = 0;
@@ -40,7 +40,7 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
 
 std::string file_name(std::uint64_t id, std::string_view suffix) { return fmt::format("{}{}", id, suffix); }
 
-// Reports whether these are the bytes of an upload that was cut off before or while it got its number.
+// Reports whether the file has the bytes of an upload that was interrupted before or while it got its number.
 bool is_unfinished(const std::string& name, const std::set<std::string>& all) {
   if (name.starts_with(kUpload)) return true;
   const std::optional<std::uint64_t> id = number_in(name);
@@ -124,7 +124,8 @@ Result<std::uint64_t> Folder::next_id() {
   if (auto written = replace_synced(path_ + "/last", fmt::format("{}\n", id)); !written) {
     return tl::unexpected(written.error());
   }
-  // Of a directory that was just made: otherwise a power cut could take it away, and its numbers with it.
+  // Syncs the parent of a directory that was just made; otherwise a power cut could remove the directory, and the
+  // number with it.
   if (auto synced = sync_directory(fs::path(path_).parent_path().string()); !synced) {
     return tl::unexpected(synced.error());
   }
@@ -161,7 +162,7 @@ Result<void> Folder::read_bytes(const Job& job, const std::function<void(std::st
   const Result<Descriptor> file = open_state_file(path, O_RDONLY);
   if (!file) return tl::unexpected(file.error());
   struct stat status {};
-  // Before anything is read: the file may be of any size.
+  // Compares the size before reading, because the file may be of any size.
   bool same = file->valid() && ::fstat(file->get(), &status) == 0 && status.st_size == job.bytes;
   if (same) {
     Sha256 digest;
@@ -183,7 +184,7 @@ Result<void> Folder::remove_upload(const std::string& upload) const {
 }
 
 Result<void> Folder::remove(std::uint64_t id) const {
-  // The record first: bytes without one are removed at the next start.
+  // Removes the record first, because bytes without a record are removed at the next start.
   const std::string record = file(id, kRecord);
   for (const std::string& path : {record, record + ".new", bytes_path(id)}) {
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) return cannot_write(path);

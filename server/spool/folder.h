@@ -1,4 +1,4 @@
-// The files of one device's jobs.
+// Files of one device's jobs.
 #pragma once
 
 #include <cstdint>
@@ -15,36 +15,38 @@
 
 namespace axisgate::server::spool {
 
-// Of a directory; none, where it is missing. internal, where it cannot be read.
+// Returns the names in a directory; none if it is missing. Fails with internal if it cannot be read.
 Result<std::set<std::string>> names_in(const std::string& directory);
 
-// ID.rml has the bytes of a job, ID.json what is known of it. A job is there once its ID.json is. What is const can be
-// called by several threads at once for different jobs.
+// A Folder stores the bytes of a job in ID.rml, and its record in ID.json. A job exists once its ID.json does. Several
+// threads may call const functions at the same time for different jobs.
 class Folder {
  public:
   explicit Folder(std::string path) : path_(std::move(path)) {}
 
-  // Before anything else. Removes what an upload that was not finished has left. A job whose files are damaged is moved
-  // aside, with an error in the log. internal, where the directory cannot be read.
+  // Reads all jobs; must be called first. Removes what an unfinished upload left behind. Moves jobs with damaged files
+  // aside, with an error in the log. Fails with internal if the directory cannot be read.
   Result<std::vector<Job>> read();
 
-  // Greater than any before, also of runs before; on the disk before it returns. internal, where it cannot be written.
+  // Returns a number greater than any before, also of earlier runs. The number is on the disk before this returns.
+  // Fails with internal if it cannot be written.
   Result<std::uint64_t> next_id();
 
   std::string bytes_path(std::uint64_t id) const { return file(id, ".rml"); }
-  // A file for the bytes of a job that has no number yet. Its path is another one each time.
+  // Returns a path for the bytes of a job that has no number yet; a different one at each call.
   std::string next_upload_path();
-  // Makes the file at such a path, and the directory. Fails with internal if the disk refuses it.
+  // Makes the file at an upload path, and the directory. Fails with internal if the disk refuses it.
   Result<Descriptor> create(const std::string& upload) const;
-  // Gives the bytes at such a path to a job of that number. Fails with internal if the disk refuses it.
+  // Moves the bytes at an upload path to the job with that number. Fails with internal if the disk refuses it.
   Result<void> take(const std::string& upload, std::uint64_t id) const;
-  // Removes what is at such a path. Fails with internal if it may come back.
+  // Removes the file at an upload path. Fails with internal if it may exist again after a power cut.
   Result<void> remove_upload(const std::string& upload) const;
-  // What is known of a job whose bytes are synced, or what has become of it. internal, where it cannot be written.
+  // Writes the record of a job whose bytes are synced, or its new state. Fails with internal if it cannot be written.
   Result<void> keep(const Job& job) const;
-  // internal, where they are not the bytes that were uploaded.
+  // Returns the bytes of a job. Fails with internal if they are not the bytes that were uploaded.
   Result<std::string> bytes_of(const Job& job) const;
-  // Also of a job that is there in part only. internal, where it may come back: then it can be removed again.
+  // Removes a job, also an incomplete one. Fails with internal if the job may exist again after a power cut; it can
+  // then be removed again.
   Result<void> remove(std::uint64_t id) const;
 
  private:

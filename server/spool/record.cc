@@ -13,9 +13,9 @@ namespace {
 using Json = nlohmann::json;
 using std::chrono::sys_seconds;
 
-constexpr std::uint64_t kLatest = 253'402'300'799;  // 9999-12-31; times are added and subtracted
+constexpr std::uint64_t kLatest = 253'402'300'799;  // 9999-12-31; leaves room for adding and subtracting times
 
-// A number that is whole and not negative; otherwise throws as nlohmann's own do.
+// Returns a whole number that is not negative. Throws as nlohmann's own functions do for any other value.
 std::uint64_t count_in(const Json& value) { return value.get_ref<const Json::number_unsigned_t&>(); }
 
 sys_seconds time_in(const Json& value) { return sys_seconds(std::chrono::seconds(std::min(count_in(value), kLatest))); }

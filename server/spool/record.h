@@ -1,4 +1,4 @@
-// What is known of a job, as its file has it: JSON.
+// Record of a job as JSON, as its file has it.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace axisgate::server::spool {
 
-// What is no UTF-8 becomes U+FFFD.
+// Replaces invalid UTF-8 by U+FFFD.
 std::string record_text(const Job& job);
 
-// Nothing, where the text is none that record_text() writes.
+// Returns nullopt if record_text() cannot have written the text.
 std::optional<Job> job_in(std::string_view record);
 
 }  // namespace axisgate::server::spool

@@ -1,4 +1,4 @@
-// How much the jobs and the uploads under way take up, and how much they may.
+// Space that jobs and uploads in progress take up, and its bounds.
 #pragma once
 
 #include <chrono>
@@ -21,38 +21,38 @@ struct Bounds {
   std::int64_t bytes_of_identity = 128 * kMebibyte;  // of all jobs of one identity
   std::size_t jobs = 200;
   std::size_t jobs_of_identity = 50;
-  std::size_t jobs_reserved = 50;  // the last places, for those who have no job that waits
-  std::chrono::days kept{30};      // after the end of a job
+  std::size_t jobs_reserved = 50;  // last places, for identities without a waiting job
+  std::chrono::days kept{30};      // time after the end of a job
 };
 
 class Place;
 
-// Thread safe. Outlives its places.
+// Thread safe. Must outlive its places.
 class Room {
  public:
   explicit Room(const Bounds& bounds) : bounds_(bounds) {}
 
-  // For a job without bytes yet. queue_full, where there are as many as may be, or as one identity may have; also where
-  // only places of Bounds::jobs_reserved are left and a job of the identity waits.
+  // Takes a place for a job without bytes yet. Fails with queue_full if the number of all jobs, or of the identity's
+  // jobs, is at its bound; also if only places of Bounds::jobs_reserved are left and a job of the identity waits.
   Result<std::unique_ptr<Place>> take(std::string identity);
-  // Whether a job of the greatest size may not fit: beside all jobs, or beside those of the identity.
+  // Reports whether a job of the greatest size may not fit: into the bounds of all jobs, or into those of the identity.
   bool is_short();
   bool is_short_for(const std::string& identity);
-  // For a job that is there already, also beyond the bounds.
+  // Takes a place for an existing job, even beyond the bounds.
   std::unique_ptr<Place> hold(std::string identity, std::int64_t bytes, bool has_ended);
 
  private:
   friend class Place;
   struct Taken {
     std::size_t jobs = 0;
-    std::size_t waiting = 0;  // of them: uploads, and jobs that have not ended
+    std::size_t waiting = 0;  // uploads, and jobs that have not ended
     std::int64_t bytes = 0;
 
     void add(const Taken& more);
     void take_off(const Taken& less);
   };
 
-  // Under mutex_, as those below.
+  // Called under mutex_, like the functions below.
   Result<void> check_count(const std::string& identity) const;
   Result<void> check(const Place& place, std::int64_t more) const;
   Taken of(const std::string& identity) const;
@@ -62,20 +62,20 @@ class Room {
   const Bounds bounds_;
   std::mutex mutex_;
   Taken all_;
-  std::map<std::string, Taken> by_identity_;  // who has none is not in it
+  std::map<std::string, Taken> by_identity_;  // without identities that have no job
 };
 
-// What one job takes up, for as long as this lives. Used by one thread at a time.
+// A Place is the space of one job, taken up as long as the Place exists. Used by one thread at a time.
 class Place {
  public:
   ~Place();
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
-  // out_of_range beyond what one job may have; queue_full beyond what all of an identity, or all, may. Then it is as
-  // large as before.
+  // Adds bytes. Fails with out_of_range beyond the bound of one job, and with queue_full beyond the bound of the
+  // identity or of all jobs; the size is then unchanged.
   Result<void> grow(std::int64_t bytes);
-  // The job has ended: it waits no longer. Again: nothing.
+  // Notes that the job has ended and no longer waits. Further calls have no effect.
   void end();
 
  private:

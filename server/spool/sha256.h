@@ -1,4 +1,4 @@
-// SHA-256 of bytes that come in pieces.
+// SHA-256 of bytes that arrive in pieces.
 #pragma once
 
 #include <openssl/evp.h>
@@ -13,7 +13,7 @@ class Sha256 {
  public:
   Sha256();
   void add(std::string_view bytes);
-  // Of all that was added, 64 hexadecimal digits. Nothing is added after it.
+  // Returns the hash of all added bytes, 64 hexadecimal digits. No bytes may be added afterwards.
   std::string hexadecimal();
 
  private:

@@ -14,7 +14,7 @@
 namespace axisgate::server::spool {
 namespace {
 
-// What is missing is well: it is made by the first upload.
+// Accepts a missing directory, because the first upload makes it.
 Result<void> check_directory(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return {};
@@ -67,7 +67,7 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
   if (!is_name(device)) return fail(Reason::unknown_device, fmt::format("there is no device {}", quoted_bytes(device)));
   auto name = job_name(fresh.name);
   if (!name) return tl::unexpected(name.error());
-  (void)drop_old(fresh.created);  // a problem of the disk shows again where the job is written
+  (void)drop_old(fresh.created);  // a problem of the disk shows again when the job is written
   Device& home = device_of(device);
   const std::lock_guard writing(writing_);
   make_room(fresh.identity);
@@ -110,7 +110,7 @@ bool Spool::drop_oldest_ended(const std::string* identity) {
   return oldest != nullptr && drop(*home, oldest->id).has_value();
 }
 
-// A job gets its number last, so that people see no gaps where one was refused.
+// Assigns the number last, so that refused uploads leave no gaps.
 Result<Job> Spool::keep(Device& device, Job job, const std::string& upload, std::unique_ptr<Place> place) {
   const std::lock_guard writing(writing_);
   const Result<std::uint64_t> id = device.folder.next_id();
@@ -149,7 +149,7 @@ Result<std::string> Spool::read(const std::string& device, std::uint64_t id) con
   if (!found) return tl::unexpected(found.error());
   auto bytes = found->folder->bytes_of(found->job);
   if (bytes) return bytes;
-  // It may have been removed meanwhile.
+  // The job may have been removed meanwhile.
   const auto still = find(device, id);
   return still ? bytes : tl::unexpected(still.error());
 }
@@ -205,7 +205,7 @@ Result<void> Spool::drop_old(std::chrono::sys_seconds now) {
 }
 
 Result<void> Spool::drop(Device& device, std::uint64_t id) {
-  // Before its files go, so that read() can distinguish what is removed from what is damaged.
+  // Removes the job before its files, so that read() can distinguish removed jobs from damaged ones.
   std::unique_lock lock(mutex_);
   auto job = device.jobs.extract(id);
   lock.unlock();

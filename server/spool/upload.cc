@@ -19,7 +19,7 @@ Upload::Upload(const Folder& folder, std::string path, Descriptor file, Job job,
       keep_(std::move(keep)) {}
 
 Upload::~Upload() {
-  // What cannot be removed now is removed at the next start.
+  // A file that cannot be removed now is removed at the next start.
   if (!kept_) folder_.remove_upload(path_);
 }
 

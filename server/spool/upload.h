@@ -17,26 +17,27 @@
 
 namespace axisgate::server::spool {
 
-// Used by one thread at a time. Nothing of it stays on the disk, unless finish() has succeeded.
+// An Upload is used by one thread at a time. Nothing of it stays on the disk unless finish() has succeeded.
 class Upload {
  public:
-  // Gives the job its number, takes its bytes from the path, and keeps it.
+  // Assigns a number to the job, takes its bytes from the path, and keeps it.
   using Keep = std::function<Result<Job>(Job, const std::string& path, std::unique_ptr<Place>)>;
-  // `file`: open at `path`, for reading, too. `folder` outlives it, and what `keep` refers to does.
+  // `file` is open at `path`, also for reading. `folder` and everything that `keep` refers to must outlive the upload.
   Upload(const Folder& folder, std::string path, Descriptor file, Job job, std::unique_ptr<Place> place, Keep keep);
   ~Upload();
   Upload(const Upload&) = delete;
   Upload& operator=(const Upload&) = delete;
 
-  // out_of_range or queue_full as Place::grow(); internal, where the disk refuses it. A job that lacks a piece is none:
-  // after a refusal all that follows is refused likewise.
+  // Fails with out_of_range or queue_full as Place::grow() does, and with internal if the disk refuses it. After a
+  // failure all later calls fail likewise, because a piece of the job is missing.
   Result<void> append(std::string_view bytes);
-  // Passes on the bytes that have come, piece by piece. Before finish(). Fails with internal if they cannot be read.
+  // Passes on the bytes received, piece by piece. Must be called before finish(). Fails with internal if they cannot be
+  // read.
   Result<void> read_back(const std::function<void(std::string_view)>& take);
-  // As Job::facts. Before finish().
+  // Sets Job::facts. Must be called before finish().
   void set_facts(std::string facts) { job_.facts = std::move(facts); }
-  // Waits for the disk; then the job has a number and is kept, also over a power cut. internal, where the disk refuses
-  // it. Nothing is called after it.
+  // Waits for the disk; the job then has a number and survives a power cut. Fails with internal if the disk refuses it.
+  // No function may be called afterwards.
   Result<Job> finish();
 
  private:

@@ -1,4 +1,4 @@
-// Problems as gRPC statuses: one table from reason to code, and the details that standard helpers decode.
+// Conversion of problems to gRPC statuses: one table from reason to code, and details that standard helpers decode.
 #pragma once
 
 #include <grpcpp/support/status.h>
@@ -14,14 +14,14 @@ namespace axisgate::rpc {
 
 grpc::StatusCode code_of(Reason reason);
 
-// When a request that was refused for this reason may be made again; nothing where waiting alone does not help.
+// Returns the delay after which a request refused for this reason may be repeated. nullopt if waiting does not help.
 std::optional<Duration> retry_after(Reason reason);
 
-// Carries an ErrorStatus with Problem, ErrorInfo and, where waiting helps, RetryInfo as its error details, which gRPC
-// sends as the trailing metadata `grpc-status-details-bin`.
+// Puts an ErrorStatus with Problem, ErrorInfo and, if waiting helps, RetryInfo into the error details. gRPC sends them
+// as the trailing metadata `grpc-status-details-bin`.
 grpc::Status to_status(const Problem& problem, const proto::Metadata& metadata = {});
 
-// Of a stream: OK, or its problem, with the metadata "resume_revision" where it can be resumed.
+// Returns OK or the stream's problem, with the metadata "resume_revision" if the stream can be resumed.
 grpc::Status to_status(const api::StreamEnd& end);
 
 }  // namespace axisgate::rpc

@@ -1,4 +1,4 @@
-// A subscription of the api as a stream of messages.
+// A subscription of the API as a stream of messages.
 #pragma once
 
 #include <grpcpp/support/server_callback.h>
@@ -15,7 +15,7 @@
 
 namespace axisgate::rpc {
 
-// `Reactor` is as PullStream has it. Each item of the subscription becomes one message.
+// Each item of the subscription becomes one message. PullStream describes `Reactor`.
 template <class Reactor, class Response, class Item>
 class SubscribedStream : public PullStream<Reactor, Response> {
  public:
@@ -24,10 +24,10 @@ class SubscribedStream : public PullStream<Reactor, Response> {
   SubscribedStream(std::shared_ptr<api::Subscription<Item>> subscription, Fill fill)
       : subscription_(std::move(subscription)), fill_(std::move(fill)) {}
 
-  // Begins. Call it when construction has ended.
+  // Starts the stream. Call it after construction.
   void serve() {
     this->open();
-    // The subscription may outlive the stream, and does not hold it.
+    // The subscription may outlive the stream, so it keeps a weak pointer only.
     subscription_->open([stream = this->weak_from_this()] {
       if (const auto still = stream.lock()) still->pump();
     });
@@ -55,7 +55,7 @@ class SubscribedStream : public PullStream<Reactor, Response> {
   const Fill fill_;
 };
 
-// Serves a subscription to a call with one request. One that is null has nothing to say.
+// Serves a subscription to a call with one request. A null subscription gives an empty stream that ends with OK.
 template <class Response, class Item, class Fill>
 grpc::ServerWriteReactor<Response>* serve(api::Opened<Item> subscription, Fill fill) {
   using Reactor = grpc::ServerWriteReactor<Response>;

@@ -14,7 +14,7 @@
 
 namespace axisgate::rpc {
 
-// All who may still answer hold a shared pointer; the first of answer(), refuse() and the caller's cancelling counts.
+// All who may still answer keep a shared pointer. The first of answer(), refuse() and the caller's cancelling counts.
 template <class Response>
 class UnaryCall final : public grpc::ServerUnaryReactor {
  public:
@@ -31,7 +31,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   void answer(Fill&& fill) {
     (void)try_answer(std::forward<Fill>(fill));
   }
-  // The same; false: the caller has gone.
+  // Like answer(); returns false if the call has already ended.
   template <class Fill>
   bool try_answer(Fill&& fill) {
     if (ended_.exchange(true)) return false;
@@ -40,7 +40,8 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
     return true;
   }
 
-  // Calls `leave` once when the caller cancels before the answer; at once if that has happened already. Call it once.
+  // Calls `leave` once when the caller cancels before the answer, or at once if the caller has already cancelled. May
+  // be called only once.
   void when_cancelled(std::function<void()> leave) {
     {
       const std::lock_guard lock(mutex_);
@@ -83,7 +84,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   Handle self_;
 };
 
-// Answers the call as the api does: `fill` is called with the response and the outcome.
+// Returns an api::Answer that answers the call. `fill` is called with the response and the outcome.
 template <class Outcome, class Response, class Fill>
 api::Answer<Outcome> answering(std::shared_ptr<UnaryCall<Response>> call, Fill fill) {
   return [call = std::move(call), fill = std::move(fill)](const Result<Outcome>& outcome) {
@@ -92,7 +93,7 @@ api::Answer<Outcome> answering(std::shared_ptr<UnaryCall<Response>> call, Fill f
   };
 }
 
-// The same for a response with nothing in it.
+// Like the function above, for an empty response.
 template <class Response>
 api::Answer<void> answering(std::shared_ptr<UnaryCall<Response>> call) {
   return [call = std::move(call)](const Result<void>& done) {
@@ -101,7 +102,7 @@ api::Answer<void> answering(std::shared_ptr<UnaryCall<Response>> call) {
   };
 }
 
-// Answers with what is known at once.
+// Answers with an outcome that is known at once.
 template <class Outcome, class Response, class Fill>
 grpc::ServerUnaryReactor* answer_at_once(Response* response, const Result<Outcome>& outcome, Fill fill) {
   const auto call = UnaryCall<Response>::start(response);

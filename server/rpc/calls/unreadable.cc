@@ -12,7 +12,8 @@ namespace {
 
 namespace hooks = grpc::experimental;
 
-// All methods are implemented, and what is none the front refuses: so this is gRPC's answer to what it could not parse.
+// All methods are implemented, and the front refuses unknown ones, so this is gRPC's answer to a message that it could
+// not parse.
 bool is_unexplained(const grpc::Status& status) {
   return status.error_code() == grpc::UNIMPLEMENTED && status.error_message().empty();
 }
@@ -35,7 +36,7 @@ class Explaining final : public hooks::Interceptor {
 
 class ExplainingFactory final : public hooks::ServerInterceptorFactoryInterface {
  public:
-  // gRPC owns it.
+  // gRPC owns the result.
   hooks::Interceptor* CreateServerInterceptor(hooks::ServerRpcInfo* call) override {
     return new Explaining(call->method());
   }

@@ -1,4 +1,4 @@
-// Requests that are not the message that their method takes.
+// Problems of requests whose message does not fit their method.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
@@ -10,13 +10,13 @@
 
 namespace axisgate::rpc {
 
-// invalid_request.
+// Reason invalid_request.
 Problem not_readable(std::string_view method);
 Problem not_one_message(std::string_view method);
 
-// For a grpc::ServerBuilder, before the interceptors that look at statuses: gives such a call its problem, where
-// gRPC 1.51 says UNIMPLEMENTED and nothing else. Streams of requests are not ended by gRPC at all: incoming.h. Thread
-// safe.
+// Returns an interceptor for a grpc::ServerBuilder, to be added before the interceptors that look at statuses. It gives
+// such a call its problem; gRPC 1.51 reports only UNIMPLEMENTED. gRPC does not end streams of requests at all:
+// incoming.h. Thread safe.
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> unreadable_interceptor();
 
 }  // namespace axisgate::rpc

@@ -25,10 +25,10 @@ using front::Peer;
 using front::Reply;
 using front::Verdict;
 
-// Callers whom nothing names. They have their limits together, since nothing distinguishes them for certain.
+// Callers without a name of their own. They share their limits, since no reliable mark distinguishes them.
 constexpr const char* kAnonymous = "a caller over TCP";
 
-// As far as limits go.
+// Returns the credential by which the call's limits are counted.
 api::Credential credential_for_limits(const Headers& headers, const Peer& peer) {
   if (auto token = token_in(find(headers, "authorization"))) return {.token = std::move(token)};
   const bool anonymous = !peer.needs_token && server::is_anonymous(peer.who);
@@ -52,13 +52,13 @@ Reply no_such_method(std::string_view method) {
           .message = fmt::format("{} is no method of this daemon; proto/ has them all", escaped(method, kShown))};
 }
 
-// `grpc-timeout`: a number and H, M, S, m, u or n.
+// Reads `grpc-timeout`: a number and H, M, S, m, u or n.
 std::optional<TimePoint> deadline_of(const Headers& headers) {
   const std::string_view text = find(headers, "grpc-timeout").value_or("");
   constexpr std::string_view kUnits = "HMSmun";
   constexpr std::array<std::int64_t, 6> kNanoseconds = {3'600'000'000'000, 60'000'000'000, 1'000'000'000,
                                                         1'000'000,         1'000,          1};
-  constexpr std::size_t kDigits = 8;  // as gRPC's protocol has it
+  constexpr std::size_t kDigits = 8;  // the maximum of gRPC's protocol
   if (text.size() < 2 || text.size() > kDigits + 1) return std::nullopt;
   const std::size_t unit = kUnits.find(text.back());
   std::int64_t number = 0;
@@ -66,7 +66,7 @@ std::optional<TimePoint> deadline_of(const Headers& headers) {
     if (digit < '0' || digit > '9') return std::nullopt;
     number = 10 * number + (digit - '0');
   }
-  constexpr std::int64_t kLongestDeadline = 24 * 3'600'000'000'000;  // longer ones are for ever
+  constexpr std::int64_t kLongestDeadline = 24 * 3'600'000'000'000;  // a longer timeout counts as none
   if (unit == std::string_view::npos || number > kLongestDeadline / kNanoseconds[unit]) return std::nullopt;
   return monotonic_now() + std::chrono::nanoseconds(number * kNanoseconds[unit]);
 }
@@ -85,7 +85,7 @@ Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   if (api::rule_of(kind).quota == api::Quota::none) {
     return {.what = Verdict::What::answer, .uncounted = true, .caller = named};
   }
-  // gRPC would answer CANCELLED.
+  // gRPC itself would answer CANCELLED.
   if (const auto ending = api_.streams.ending()) {
     metrics_.count(method, grpc::UNAVAILABLE);
     return {.what = Verdict::What::refuse, .refusal = to_reply(*ending)};

@@ -1,5 +1,4 @@
-// Who is let in with which call, and the answers that the front gives itself: what a stop needs shares no thread with
-// gRPC.
+// Admission of calls, and the answers that the front gives itself. The path of a stop shares no thread with gRPC.
 #pragma once
 
 #include "server/api/api.h"
@@ -12,7 +11,7 @@ namespace axisgate::rpc {
 
 class Desk final : public front::Desk {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Desk(api::Api& api, RpcMetrics& metrics, Refusals& refusals)
       : api_(api), metrics_(metrics), refusals_(refusals), answers_(api) {}
 

@@ -80,7 +80,7 @@ constexpr std::array<MethodKind, 62> kKinds = {{
 constexpr std::string_view kReflection = "/grpc.reflection.v1.ServerReflection/",
                            kReflectionServed = "/grpc.reflection.v1alpha.ServerReflection/";
 
-// gRPC's own services. All that is theirs may be read.
+// gRPC's own services, by the beginning of the method. All of their methods only read.
 constexpr std::array<MethodKind, 6> kOfGrpc = {{
     {"/grpc.health.v1.Health/Watch", Kind::watch_door},
     {"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo", Kind::watch_door},

@@ -1,4 +1,4 @@
-// Which kind of request each method is.
+// The request kind of each method.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace axisgate::rpc {
 
-// Of "/axisgate.v1.StageService/Move"; unlisted for one that is not known here.
+// `method` is a path such as "/axisgate.v1.StageService/Move". Returns `unlisted` for an unknown method.
 api::RequestKind kind_of(std::string_view method);
 
-// The name under which gRPC serves it. gRPC 1.51 knows reflection as v1alpha only; v1 has the same messages.
+// Returns the path under which gRPC serves the method. gRPC 1.51 serves reflection as v1alpha only; v1 has the same
+// messages.
 std::string served_as(std::string_view method);
 
 }  // namespace axisgate::rpc

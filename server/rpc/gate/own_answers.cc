@@ -33,7 +33,7 @@ Response reports_in(const std::vector<api::DeviceStop>& stops) {
   return response;
 }
 
-// Of a stop. Its answer is made by the end of max_wait.
+// Builds the Call of a stop. Its deadline is at the latest the end of max_wait.
 template <class Request>
 api::Call call_of_stop(const Served& served, std::optional<TimePoint> deadline, const Request& request) {
   api::Call call = to_call(served.credential(), deadline, request.context());

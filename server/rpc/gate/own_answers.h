@@ -1,5 +1,5 @@
-// The methods that the front answers itself: stops, which share no thread with gRPC; and questions, which are asked so
-// often that every thread they pass through counts.
+// The methods that the front answers itself: stops, which share no thread with gRPC, and frequent questions, for which
+// each additional thread would cost too much.
 #pragma once
 
 #include <functional>
@@ -22,24 +22,24 @@ namespace axisgate::rpc {
 // Thread safe.
 class OwnAnswers {
  public:
-  // It outlives this.
+  // `api` must outlive this object.
   explicit OwnAnswers(const api::Api& api) : api_(api) {}
 
-  // What came with one request, and whom it is answered to.
+  // One request: its record, its deadline, and the function to call when the answer is there.
   struct Asked {
     std::shared_ptr<Served> served;
     std::optional<TimePoint> deadline;
     Wake wake;
   };
-  // A kind that is answered here, and how.
+  // One kind of request that the front answers, and its function.
   struct Row {
     api::RequestKind kind;
     std::unique_ptr<front::Answer> (OwnAnswers::*answer)(std::optional<std::string_view> message, Asked asked) const;
   };
-  // Nothing for one that gRPC answers.
+  // Null if gRPC answers this kind.
   static const Row* row_of(api::RequestKind kind);
 
-  // `deadline` is the call's, and `message` is as front::Desk::answer() describes it.
+  // `deadline` is the call's. front::Desk::answer() describes `message`.
   std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
                                         std::optional<TimePoint> deadline, std::optional<std::string_view> message,
                                         Wake wake) const;

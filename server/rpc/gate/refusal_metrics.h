@@ -1,4 +1,4 @@
-// Refused calls and closed connections on the metrics page, by why.
+// Counts of refused calls and of closed connections for the metrics page, by reason.
 #pragma once
 
 #include <prometheus/counter.h>
@@ -11,16 +11,17 @@
 
 namespace axisgate::rpc {
 
-// What counts as a refusal: the caller is unknown, may not, or has too much open; or another caller has the axes.
+// Reasons that count as a refusal: the caller is unknown, lacks the right or has too much open, or another caller has
+// the axes.
 inline constexpr std::array kRefusals = {Reason::unauthenticated, Reason::not_allowed, Reason::queue_full,
                                          Reason::lease_held,      Reason::lease_lost,  Reason::outside_lease};
 
-// Every series exists from the start. Thread safe. The registry outlives it.
+// Every series exists from the start. Thread safe. The registry must outlive this object.
 class RefusalMetrics {
  public:
   explicit RefusalMetrics(prometheus::Registry& registry);
 
-  // One of kRefusals; false for another reason, which is not counted.
+  // Counts one of kRefusals. Returns false for another reason, which is not counted.
   bool count(Reason reason);
   void count(front::Cause cause);
 

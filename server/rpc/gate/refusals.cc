@@ -16,7 +16,7 @@ namespace record = grpc::experimental;
 
 constexpr std::size_t kMessageMax = 300;
 
-// As to_status() has packed it.
+// Returns the problem that to_status() has packed. nullopt if there is none.
 std::optional<v1::Problem> problem_of(const grpc::Status& status) {
   v1::ErrorStatus details;
   v1::Problem problem;
@@ -25,12 +25,12 @@ std::optional<v1::Problem> problem_of(const grpc::Status& status) {
   return problem;
 }
 
-// What a wrong token says of itself could be a piece of a good one.
+// Leaves out the name in a wrong token: it could be a piece of a valid token.
 std::string shown(const front::Peer& peer, const api::Credential& credential, Reason reason) {
   return reason == Reason::unauthenticated ? peer.who : api::name_of(credential);
 }
 
-// One call that gRPC serves, until its status goes out.
+// A NotingCall is one call that gRPC serves, until its status is sent.
 class NotingCall final : public record::Interceptor {
  public:
   NotingCall(Refusals& refusals, record::ServerRpcInfo& call) : refusals_(refusals), call_(call) {}
@@ -53,14 +53,14 @@ class NotingCall final : public record::Interceptor {
   }
 
   Refusals& refusals_;
-  record::ServerRpcInfo& call_;  // gRPC's, and lives as long as the call
+  record::ServerRpcInfo& call_;  // gRPC's; lives as long as the call
 };
 
 class NotingFactory final : public record::ServerInterceptorFactoryInterface {
  public:
   explicit NotingFactory(Refusals& refusals) : refusals_(refusals) {}
 
-  // gRPC owns it.
+  // gRPC owns the result.
   record::Interceptor* CreateServerInterceptor(record::ServerRpcInfo* call) override {
     return new NotingCall(refusals_, *call);
   }

@@ -1,4 +1,4 @@
-// What is refused and what is closed for a cause, on record: counted, and in the log.
+// Counts and logs refused calls and connections closed for a reason.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
@@ -17,20 +17,21 @@
 
 namespace axisgate::rpc {
 
-// Nothing that identifies a caller to the daemon, no token of any kind, stands in a line. Thread safe.
+// A log line never contains tokens or other credentials. Thread safe.
 class Refusals {
  public:
-  // `registry` outlives it.
+  // `registry` must outlive this object.
   Refusals(prometheus::Registry& registry, server::RefusalLog::Later later)
       : metrics_(registry), log_(std::move(later)) {}
 
-  // A call of a peer that ended with a problem; one whose reason is none of kRefusals is not noted. Texts may
-  // be a client's own.
+  // Notes a call that ended with a problem, if `reason` is one of kRefusals. `message` may contain the client's own
+  // text.
   void note(const front::Peer& peer, const api::Credential& credential, std::string_view method, Reason reason,
             std::string_view message);
   void note(const front::Peer& peer, const front::Closing& closing);
 
-  // For a grpc::ServerBuilder: notes the calls that gRPC ends. This outlives the server that it builds.
+  // Returns an interceptor for a grpc::ServerBuilder that notes the calls that gRPC ends. This object must outlive the
+  // server.
   std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor();
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 namespace intercepting = grpc::experimental;
 
-// By grpc::StatusCode.
+// Names of the codes, indexed by grpc::StatusCode.
 constexpr std::array<std::string_view, 17> kCodes = {
     "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
     "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
@@ -35,7 +35,7 @@ void RpcMetrics::Call::ended(grpc::StatusCode code) {
   if (method_.second.open != nullptr) method_.second.open->Decrement();
 }
 
-// One call of gRPC's, until its status goes out.
+// A CallCount is one call that gRPC serves, until its status is sent.
 class RpcMetrics::CallCount final : public intercepting::Interceptor {
  public:
   CallCount(RpcMetrics& metrics, const Entry& method) : call_(metrics, method) {}
@@ -55,7 +55,7 @@ class RpcMetrics::Factory final : public intercepting::ServerInterceptorFactoryI
  public:
   explicit Factory(RpcMetrics& metrics) : metrics_(metrics) {}
 
-  // gRPC owns it; null: the call is not intercepted.
+  // gRPC owns the result. Null: the call is not intercepted.
   intercepting::Interceptor* CreateServerInterceptor(intercepting::ServerRpcInfo* call) override {
     const auto found = metrics_.methods_.find(without_slash(call->method()));
     return found == metrics_.methods_.end() ? nullptr : new CallCount(metrics_, *found);

@@ -1,4 +1,4 @@
-// Calls by method and code, and the streams that are open, counted where gRPC hands every call through.
+// Counts of calls by method and code, and of open streams, from gRPC's interceptors.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
@@ -17,30 +17,31 @@
 
 namespace axisgate::rpc {
 
-// Of the methods that are served, whichever server serves or refuses them; a call of any other is not counted, so that
-// no caller makes up a label. Thread safe.
+// Counts the served methods only, so that no caller can invent a label; calls that the front serves or refuses count as
+// well. Thread safe.
 class RpcMetrics {
  public:
   class Call;
 
   explicit RpcMetrics(prometheus::Registry& registry);
 
-  // For a grpc::ServerBuilder. This outlives the server that it builds.
+  // Returns an interceptor for a grpc::ServerBuilder. This object must outlive the server.
   std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor();
 
-  // What the front refused by itself, which no interceptor sees: a call of "/axisgate.v1.StageService/Move" that ended.
+  // Counts an ended call that the front refused itself, which no interceptor sees. `path` is like
+  // "/axisgate.v1.StageService/Move".
   void count(std::string_view path, grpc::StatusCode code);
 
  private:
   class CallCount;
   class Factory;
   struct Method {
-    prometheus::Counter& succeeded;     // with OK; other codes are seldom, and looked up
-    prometheus::Gauge* open = nullptr;  // null: no stream
+    prometheus::Counter& succeeded;     // with OK; other codes are rare and looked up
+    prometheus::Gauge* open = nullptr;  // null: not a stream
   };
   using Entry = std::pair<const std::string, Method>;
 
-  // Of "/axisgate.v1.StageService/Move", or whatever a caller wrote.
+  // `path` is like "/axisgate.v1.StageService/Move", or any text that a caller wrote.
   static std::string without_slash(std::string_view path) { return std::string(path.substr(path.empty() ? 0 : 1)); }
 
   prometheus::Family<prometheus::Counter>& calls_;
@@ -48,17 +49,17 @@ class RpcMetrics {
   std::unordered_map<std::string, Method> methods_;  // by "axisgate.v1.StageService/Move"; does not change
 };
 
-// A call that is served: open from its arrival until its end, which is CANCELLED if it goes without one.
+// A served call is open from its arrival until its end. It counts as CANCELLED if it is destroyed without an end.
 class RpcMetrics::Call {
  public:
-  // The metrics outlive it. `path` is of a method that is served.
+  // The metrics must outlive this object. `path` is that of a served method.
   Call(RpcMetrics& metrics, std::string_view path) : Call(metrics, *metrics.methods_.find(without_slash(path))) {}
   Call(RpcMetrics& metrics, const Entry& method);
   ~Call() { ended(grpc::CANCELLED); }
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  void ended(grpc::StatusCode code);  // the first time counts
+  void ended(grpc::StatusCode code);  // only the first call counts
 
  private:
   RpcMetrics& metrics_;

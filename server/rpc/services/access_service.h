@@ -1,4 +1,4 @@
-// Who calls, and tokens.
+// AccessService: the caller's own name and role, and tokens.
 #pragma once
 
 #include "axisgate/v1/access.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class AccessService final : public v1::AccessService::CallbackService {
  public:
-  // It outlives this.
+  // `tokens` must outlive this object.
   explicit AccessService(const api::Tokens& tokens) : tokens_(tokens) {}
 
   grpc::ServerUnaryReactor* GetCaller(grpc::CallbackServerContext* context, const v1::GetCallerRequest* request,

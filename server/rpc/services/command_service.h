@@ -1,4 +1,4 @@
-// CommandService: the controller's own commands, for what the other services do not cover.
+// CommandService: the controller's own commands, for functions that the other services do not cover.
 #pragma once
 
 #include "axisgate/v1/command.grpc.pb.h"
@@ -8,12 +8,12 @@ namespace axisgate::rpc {
 
 class CommandService final : public v1::CommandService::CallbackService {
  public:
-  // It outlives this.
+  // `commands` must outlive this object.
   explicit CommandService(const api::Commands& commands) : commands_(commands) {}
 
   grpc::ServerUnaryReactor* ListCommands(grpc::CallbackServerContext* context, const v1::ListCommandsRequest* request,
                                          v1::ListCommandsResponse* response) override;
-  // Execute is the front's (own_answers.h).
+  // The front answers Execute (own_answers.h).
 
  private:
   const api::Commands& commands_;

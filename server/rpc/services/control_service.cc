@@ -13,7 +13,7 @@
 namespace axisgate::rpc {
 namespace {
 
-// AcquireLease and TakeOverLease alike.
+// A WaitingCall is an open AcquireLease or TakeOverLease.
 template <class Response>
 class WaitingCall final : public api::LeaseSeeker {
  public:

@@ -1,4 +1,4 @@
-// Who may move what: leases, and stops that stay stopped.
+// ControlService: leases, and the latches that other callers' stops set.
 #pragma once
 
 #include "axisgate/v1/control.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class ControlService final : public v1::ControlService::CallbackService {
  public:
-  // It outlives this.
+  // `leases` must outlive this object.
   explicit ControlService(const api::Leases& leases) : leases_(leases) {}
 
   grpc::ServerUnaryReactor* AcquireLease(grpc::CallbackServerContext* context, const v1::AcquireLeaseRequest* request,

@@ -1,4 +1,4 @@
-// DeviceService: which devices there are and how they are.
+// DeviceService: the list of devices and their states.
 #pragma once
 
 #include "axisgate/v1/device.grpc.pb.h"
@@ -8,10 +8,10 @@ namespace axisgate::rpc {
 
 class DeviceService final : public v1::DeviceService::CallbackService {
  public:
-  // It outlives this.
+  // `devices` must outlive this object.
   explicit DeviceService(const api::Devices& devices) : devices_(devices) {}
 
-  // ListDevices and GetDevice are the front's (own_answers.h).
+  // The front answers ListDevices and GetDevice (own_answers.h).
   grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
                                                                  const v1::WatchDeviceRequest* request) override;
   grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,

@@ -11,7 +11,7 @@
 namespace axisgate::rpc {
 namespace {
 
-// RecordResponse and GetSupportReportResponse alike.
+// Serves RecordResponse and GetSupportReportResponse.
 template <class Response>
 void fill_text(Response& response, const std::string& text) {
   response.set_text(text);

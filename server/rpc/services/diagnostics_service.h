@@ -1,4 +1,4 @@
-// DiagnosticsService: what went over the lines, and a report for somebody who helps.
+// DiagnosticsService: recordings of the lines, and the support report.
 #pragma once
 
 #include "axisgate/v1/diagnostics.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class DiagnosticsService final : public v1::DiagnosticsService::CallbackService {
  public:
-  // It outlives this.
+  // `diagnostics` must outlive this object.
   explicit DiagnosticsService(const api::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   grpc::ServerWriteReactor<v1::RecordResponse>* Record(grpc::CallbackServerContext* context,

@@ -1,4 +1,4 @@
-// EventService: the facts of all devices from a revision on.
+// EventService: the events of all devices from a revision on.
 #pragma once
 
 #include "axisgate/v1/event.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class EventService final : public v1::EventService::CallbackService {
  public:
-  // It outlives this.
+  // `events` must outlive this object.
   explicit EventService(const api::Events& events) : events_(events) {}
 
   grpc::ServerWriteReactor<v1::WatchResponse>* Watch(grpc::CallbackServerContext* context,

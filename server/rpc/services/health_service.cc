@@ -18,12 +18,12 @@ namespace {
 using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;
 
-// "" is the server as a whole.
+// An empty name means the whole server.
 bool is_service(std::string_view name) {
   return name.empty() || std::find(kApiServices.begin(), kApiServices.end(), name) != kApiServices.end();
 }
 
-// One answer, which never changes; the stream ends with the call, or with its caller's token.
+// A HealthWatch sends one status, which never changes. The stream ends with the call, or when the caller's token ends.
 class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheckResponse>, HealthCheckResponse> {
  public:
   static HealthWatch* start(HealthCheckResponse::ServingStatus status, api::Streams::Place place) {

@@ -1,4 +1,4 @@
-// The standard health service: the daemon serves as long as it runs; how a device is stands in DeviceService.
+// gRPC's standard health service: SERVING as long as the daemon runs. DeviceService reports the state of devices.
 #pragma once
 
 #include <grpc/health/v1/health.grpc.pb.h>

@@ -1,4 +1,4 @@
-// What has happened.
+// HistoryService: the entries of the journal.
 #pragma once
 
 #include "axisgate/v1/history.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class HistoryService final : public v1::HistoryService::CallbackService {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   HistoryService(const api::History& history, const server::Gateway& gateway) : history_(history), gateway_(gateway) {}
 
   grpc::ServerUnaryReactor* ListHistory(grpc::CallbackServerContext* context, const v1::ListHistoryRequest* request,

@@ -1,4 +1,4 @@
-// MillService: jobs of mills. AbortJob is answered by the front (own_answers.h).
+// MillService: jobs of mills. The front answers AbortJob (own_answers.h).
 #pragma once
 
 #include "axisgate/v1/mill.grpc.pb.h"

@@ -1,4 +1,4 @@
-// PositionService: places of a stage with names.
+// PositionService: saved positions of a stage.
 #pragma once
 
 #include "axisgate/v1/position.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class PositionService final : public v1::PositionService::CallbackService {
  public:
-  // It outlives this.
+  // `positions` must outlive this object.
   explicit PositionService(const api::Positions& positions) : positions_(positions) {}
 
   grpc::ServerUnaryReactor* SavePosition(grpc::CallbackServerContext* context, const v1::SavePositionRequest* request,

@@ -1,4 +1,4 @@
-// SettingService: what a controller is set to beside its motion.
+// SettingService: settings of a controller other than its motion.
 #pragma once
 
 #include "axisgate/v1/settings.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class SettingService final : public v1::SettingService::CallbackService {
  public:
-  // It outlives this.
+  // `settings` must outlive this object.
   explicit SettingService(const api::Settings& settings) : settings_(settings) {}
 
   grpc::ServerUnaryReactor* GetSettings(grpc::CallbackServerContext* context, const v1::GetSettingsRequest* request,

@@ -1,4 +1,4 @@
-// SimulatorService: what a person does at a simulated device.
+// SimulatorService: actions of a person at a simulated device.
 #pragma once
 
 #include "axisgate/v1/simulator.grpc.pb.h"
@@ -8,7 +8,7 @@ namespace axisgate::rpc {
 
 class SimulatorService final : public v1::SimulatorService::CallbackService {
  public:
-  // It outlives this.
+  // `simulators` must outlive this object.
   explicit SimulatorService(const api::Simulators& simulators) : simulators_(simulators) {}
 
   grpc::ServerUnaryReactor* Operate(grpc::CallbackServerContext* context, const v1::OperateRequest* request,

@@ -1,4 +1,4 @@
-// StageService: motion. Stops are answered in front of gRPC (desk.h).
+// StageService: motion. The front answers stops (desk.h).
 #pragma once
 
 #include "axisgate/v1/stage.grpc.pb.h"
@@ -11,7 +11,7 @@ namespace axisgate::rpc {
 
 class StageService final : public v1::StageService::CallbackService {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   StageService(const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs, const HalfClose& half_close)
       : motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
 
