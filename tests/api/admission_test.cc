@@ -1,4 +1,4 @@
-// What of a call's context reaches a device, and until when it counts.
+// Tests of the parts of a call's context that reach a device, and of its deadline.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ TEST_F(AdmissionTest, CallersWhomNothingNamesTakeTurnsAsOne) {
   EXPECT_EQ(turns_of(kAnna), kAnna);
 }
 
-// A guess holds back nobody who needs no lease, and least of all a stop.
+// A guessed token must not hinder a call that needs no lease, least of all a stop.
 TEST_F(AdmissionTest, AGuessedLeaseTokenIsRefused) {
   call_.lease_token = world_.sealed(5);
   call_.lease_token.back() ^= 1;
@@ -125,7 +125,7 @@ TEST_F(AdmissionTest, ATokenGoesBeforeTheConnection) {
   EXPECT_EQ(name_of({.who = kAdmin, .token = token}), "token scan");
 }
 
-// The refusal names the request as the door calls it, and both roles.
+// The refusal names the request as the door calls it, the required role and the caller's role.
 TEST_F(AdmissionTest, ARefusalForPeople) {
   const auto refused = world_.api->admission.let_in(RequestKind::create_token, {.who = kAnna}, "/axisgate/CreateToken");
   ASSERT_FALSE(refused);

@@ -15,7 +15,7 @@ Reason reason_of(const Result<Value>& result) {
   return result ? Reason::unspecified : result.error().reason;
 }
 
-// The reason of its first reading: streams that follow something have no end of their own.
+// Returns the reason after the first reading, because streams that follow a device do not end.
 template <class Item>
 Reason reason_of(const Opened<Item>& opened) {
   if (!opened) return opened.error().reason;
@@ -123,7 +123,7 @@ Reason ask_motion(World& world, RequestKind kind, const Call& call) {
   }
 }
 
-// Of the stage that there is.
+// Sends a request for mills. Its device is the stage, the only device.
 Reason ask_mills(World& world, RequestKind kind, const Call& call) {
   constexpr const char* kJob = "devices/turn/jobs/1";
   const MillSubjects& mill = world.api->mill;

@@ -1,4 +1,4 @@
-// Any kind of request, asked as a door would, and the reason that refuses it.
+// Sends any kind of request as a door would, and returns the reason of its refusal.
 #pragma once
 
 #include <string_view>
@@ -7,13 +7,14 @@
 
 namespace axisgate::api {
 
-inline constexpr const char* kSaved = "devices/turn/positions/saved";      // that there is
-inline constexpr const char* kUnknownMotion = "devices/turn/motions/999";  // that there is not
+inline constexpr const char* kSaved = "devices/turn/positions/saved";      // a position that exists
+inline constexpr const char* kUnknownMotion = "devices/turn/motions/999";  // a motion that does not exist
 
-// A position under that name.
+// Saves the position kSaved.
 void save_position(World& world);
 
-// unspecified: it was done. What it started has ended by then.
+// Sends the request, and returns the reason of its refusal; unspecified if it was done. A motion that it started has
+// ended when the function returns.
 Reason ask(World& world, RequestKind kind, const Call& call);
 
 }  // namespace axisgate::api

@@ -1,4 +1,4 @@
-// Whose long task is the next.
+// Tests of the order in which callers' long tasks run.
 #include "server/api/request/fair_worker.h"
 
 #include <gmock/gmock.h>

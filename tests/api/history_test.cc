@@ -1,4 +1,4 @@
-// Who reads whose entries, and who erases a name. The journal is the gateway's own.
+// Tests of the rights to read entries and to erase a name, with a real journal of the gateway.
 #include <gmock/gmock.h>
 
 #include <future>
@@ -20,11 +20,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* kOlaf = "unix olaf";  // an observer
+constexpr const char* kOlaf = "unix olaf";  // has the role observer
 
 class HistoryOfApi : public ::testing::Test {
  protected:
-  // Each has stopped the device once, in this order.
+  // Starts a world in which each of four callers has stopped the device once, in this order.
   void start(Role others_seen_by) {
     world_ = std::make_unique<World>(
         [&](World& configured) { configured.journal_config = {.kept = true, .others_seen_by = others_seen_by}; });
@@ -38,7 +38,7 @@ class HistoryOfApi : public ::testing::Test {
     world_->api->history.list(World::by(who), std::move(filter), page_size, page.answer());
     return page.get();
   }
-  // Whose stops are read, oldest first.
+  // Returns the callers of the stops that `reader` can read, oldest first.
   std::vector<std::string> stops(const std::string& reader, Filter filter = {}) {
     filter.kinds = {EntryKind::stop_requested};
     filter.oldest_first = true;
@@ -119,7 +119,7 @@ TEST_F(HistoryOfApi, EverybodyVerifiesTheWholeJournal) {
   EXPECT_EQ(verdict.get()->verdict.rows, list(kAdmin)->newest);
 }
 
-// A verification that is under way until the test ends it.
+// A SlowVerification keeps a verification of the journal running until the test ends it.
 class SlowVerification {
  public:
   explicit SlowVerification(const World& world) {
@@ -151,7 +151,8 @@ TEST_F(HistoryOfApi, CallersTakeTurnsToVerifyIt) {
     std::vector<std::string> callers;
     std::promise<void> all_done;
   };
-  const auto order = std::make_shared<Order>();  // the worker may be in the last answer when the test continues
+  const auto order =
+      std::make_shared<Order>();  // shared, because the worker may still run the last callback when the test continues
   for (const char* who : {kOlaf, kOlaf, kOlaf, kAnna}) {
     world_->api->history.verify(World::by(who), std::nullopt, [order, who](const Result<JournalVerdict>&) {
       const std::lock_guard lock(order->mutex);

@@ -1,4 +1,4 @@
-// What of a job is refused while its bytes come.
+// Tests of the refusal of jobs while their bytes are received.
 #include "server/api/mill/job_check.h"
 
 #include <gmock/gmock.h>
@@ -29,14 +29,15 @@ Result<CheckedJob> check(const std::vector<std::string>& files, const std::vecto
   return job.finish();
 }
 
-// In whole, 3 bytes more than they have between the command and its terminator.
+// Returns a job with a command of `count` groups of 3 bytes; the whole command, with its terminator, has 3 + 3 * count
+// + 1 bytes.
 std::string groups(int count) {
   std::string job = "PA;\n!ZE";
   for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "X1:" : "X2:";
   return job + ";PU0,0;!MC0;\n";
 }
 
-// Without flow control its end would be lost; and a line that does not take it counts as lost.
+// Without flow control the end of the command would be lost. A line that does not accept the command counts as lost.
 TEST(AJobCheck, RefusesWhatIsOneWriteAndLongerThanTheBuffer) {
   EXPECT_TRUE(check({groups(340)})) << "1,024 bytes";
   const auto longer = check({groups(341)});
@@ -55,7 +56,7 @@ TEST(AJobCheck, HasNoLimitForWhatIsCut) {
   EXPECT_TRUE(check({list + "0,0;!MC0;" + std::string(100'000, '\n')}));
 }
 
-// Two kinds: 11 mm in one pass, and the end in the cut.
+// Job with two kinds of warnings: a pass of 11 mm, and a tool that is in the cut at the end.
 constexpr const char* kDeepAndDown = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\n";
 
 TEST(AJobCheck, KnowsWhatWasAcceptedBefore) {
@@ -66,7 +67,7 @@ TEST(AJobCheck, KnowsWhatWasAcceptedBefore) {
   EXPECT_TRUE(without) << "what the job no longer has is no reason to refuse it: " << without.error().message;
 }
 
-// The same 11 mm, where a job before has taken the first 5.5 mm and another the rest.
+// A pass to 11 mm is accepted if an earlier job has already removed the material in two passes of 5.5 mm.
 TEST(AJobCheck, KnowsWhatAnotherJobHasRemoved) {
   const auto profile = rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml"));
   constexpr const char* kDeep = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\nPU0,0;!MC0;";
@@ -119,7 +120,7 @@ TEST(AJobCheck, KnowsTheNamesOfWarnings) {
   }
 }
 
-// Roughed in two passes, and finished at the whole depth: the finishing takes what the roughing has left.
+// A job is roughed in two passes and finished at the whole depth: the finishing only removes the rest.
 TEST(AJobCheck, CarriesWhatIsRemovedFromPartToPart) {
   const auto along = [](int depth) {
     return "PA;!PZ-" + std::to_string(depth) + ",200;!MC1;PU0,0;PD1000,0;PU;!MC0;\n";

@@ -1,4 +1,4 @@
-// Jogs and paths: what their messages do, and how they end.
+// Tests of jogs and paths: the effect of their messages, and their ends.
 #include <gtest/gtest.h>
 
 #include "tests/api/world.h"
@@ -15,7 +15,7 @@ class JogTest : public ::testing::Test {
   bool start(const Result<std::vector<JogAxis>>& axes, const std::string& device = kDevice) {
     return jog_->start(World::by(kAnna), device, axes);
   }
-  // A reader is never shown an earlier state after a later one.
+  // Returns the next state. Expects that no earlier state follows a later one.
   std::optional<CurrentMotion> next() {
     auto one = reader_.next();
     EXPECT_GT(one ? one->revision : seen_ + 1, seen_);
@@ -35,7 +35,7 @@ class JogTest : public ::testing::Test {
   std::uint64_t seen_ = 0;
 };
 
-// Renewed for longer than the silence that ends a jog; the gateway runs in real time here.
+// The jog is renewed for longer than the silence that ends a jog; the gateway runs in real time here.
 TEST_F(JogTest, RunsUntilItsCallerEndsIt) {
   ASSERT_TRUE(start(plus()));
   EXPECT_EQ(next()->motion.state, MotionState::running);
@@ -60,7 +60,7 @@ TEST_F(JogTest, ACallerThatBreaksOffStopsIt) {
   EXPECT_EQ(outcome(), MotionState::stopped);
 }
 
-// Nothing may start for a caller that has gone while the message was on its way.
+// No jog may start for a caller that disconnected while the message was in transit.
 TEST_F(JogTest, ACallerThatHasGoneStartsNothing) {
   world_.device().post([](stage::StageController&, TimePoint) { std::this_thread::sleep_for(milliseconds(50)); });
   ASSERT_TRUE(start(plus()));
@@ -195,7 +195,7 @@ TEST_F(PathTest, OfACallerThatBrokeOffNothingRuns) {
   EXPECT_FALSE(reader_.has_something());
 }
 
-// Of an operator's token that is revoked while it is in use.
+// An operator's token is revoked while a stream and a jog use it.
 TEST(RevokedToken, EndsItsStreamsAndItsJog) {
   World world;
   const Call call{.credential = {.token = world.token("scan", server::Role::operator_)}};
@@ -218,7 +218,7 @@ TEST(RevokedToken, EndsItsStreamsAndItsJog) {
   }));
 }
 
-// While the path came in, its caller lost the right to run it.
+// The caller loses the right to run the path while its segments are received.
 TEST_F(PathTest, ATokenRevokedMeanwhile) {
   ASSERT_TRUE(start({.credential = {.token = world_.token("scan", server::Role::operator_)}}));
   ASSERT_TRUE(path_->add(segment()));

@@ -1,4 +1,4 @@
-// Leases: what a caller may want, and what becomes of one who goes.
+// Tests of leases: the terms that a caller may request, and callers that disconnect.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,7 +12,7 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// A caller who waits, and may go.
+// A WaitingSeeker is a caller that waits for a lease, and may disconnect.
 class WaitingSeeker final : public LeaseSeeker {
  public:
   bool answer(Result<std::optional<server::Lease>> lease) override {
@@ -52,7 +52,7 @@ class WaitingSeeker final : public LeaseSeeker {
 
 class LeasesOfApi : public ::testing::Test {
  protected:
-  // What refuses it; empty: nothing.
+  // Returns the message of the refusal; empty if the lease would be granted.
   std::string refusal(const Result<LeaseWish>& wish, Duration wait = {}) {
     const auto seeker = std::make_shared<WaitingSeeker>();
     Call call = World::by(kAnna);
@@ -129,7 +129,7 @@ TEST_F(LeasesOfApi, AWaitingCallerWhoGoesLeavesItsPlace) {
   EXPECT_EQ(waiting(), 0u);
 }
 
-// It was granted in the moment in which its caller went.
+// The lease is granted at the moment at which its caller disconnects.
 TEST_F(LeasesOfApi, ALeaseWhoseCallerHasGoneIsGivenBack) {
   const auto seeker = std::make_shared<WaitingSeeker>();
   seeker->go();

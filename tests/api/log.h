@@ -1,4 +1,4 @@
-// What the log says.
+// Capture of the log's text.
 #pragma once
 
 #include <spdlog/sinks/ostream_sink.h>
@@ -11,7 +11,7 @@
 
 namespace axisgate::api {
 
-// While it lives. Read when no other thread logs.
+// A Log captures the default logger until it is destroyed. Call text() only while no other thread logs.
 class Log {
  public:
   Log() : before_(spdlog::default_logger()) {

@@ -1,5 +1,5 @@
-// Each kind of request x role x lease x latch x quota x validate_only x deadline. What is expected is typed from the
-// rules in server/api/README.md, not read from the table in the code.
+// Tests of each kind of request x role x lease x latch x quota x validate_only x deadline. The expected results are
+// typed from the rules in server/api/README.md, not read from the table in the code.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,14 +16,14 @@ using server::Role;
 
 constexpr Reason kDone = Reason::unspecified;
 
-// What the right to axes means to a kind of request, on a rotor.
+// Effect of the right to axes on a kind of request, for a rotor.
 enum class Asks {
-  nothing,      // the state of leases is the same to it
-  refused,      // starts a motion that a rotor cannot do, which it says before all rights
-  axes,         // starts a motion: refused without the right, unless it is only checked
-  axes_always,  // likewise, also where it is only checked
-  lease,        // is about a lease: needs the caller's own
-  free_axes,    // gets a lease where nobody has one
+  nothing,      // leases have no effect
+  refused,      // starts a motion that a rotor cannot do, which is refused before rights are checked
+  axes,         // starts a motion: refused without the right, except with validate_only
+  axes_always,  // likewise, also with validate_only
+  lease,        // concerns a lease: the caller needs one
+  free_axes,    // acquires a lease, if no caller has one
 };
 
 struct Row {
@@ -32,11 +32,11 @@ struct Row {
   Role least;
   const char* counted;  // "", "request" or "stream"
   Asks asks;
-  Reason otherwise = kDone;     // where nothing else refuses it
-  Reason only_checked = kDone;  // by validate_only
+  Reason otherwise = kDone;     // result if no rule refuses it
+  Reason only_checked = kDone;  // result with validate_only
 };
 
-// README, "The rules"; what a rotor cannot do it refuses (tests/double).
+// README, "The rules". A rotor refuses requests that it does not support (tests/double).
 const std::vector<Row> kRows = {
     {Kind::get_caller, "get_caller", Role::observer, "request", Asks::nothing},
     {Kind::create_token, "create_token", Role::admin, "request", Asks::nothing},
@@ -96,7 +96,7 @@ const std::vector<Row> kRows = {
     {Kind::watch_motion, "watch_motion", Role::observer, "stream", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::cancel_motion, "cancel_motion", Role::operator_, "request", Asks::nothing, Reason::not_found,
      Reason::not_found},
-    // The device is no mill.
+    // Requests for mills are refused, because the device is not a mill.
     {Kind::send_job, "send_job", Role::operator_, "stream", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
     {Kind::repeat_job, "repeat_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
@@ -128,7 +128,7 @@ const std::vector<Row> kRows = {
      Reason::invalid_request},
 };
 
-// Those without a device behind them, which only a door has.
+// Requests to the door itself, without a device.
 const std::vector<Row> kOfDoors = {
     {Kind::ask_door, "ask_door", Role::observer, "request", Asks::nothing},
     {Kind::watch_door, "watch_door", Role::observer, "stream", Asks::nothing},
@@ -162,7 +162,7 @@ Reason let_in(const World& world, const Row& row, const Credential& credential) 
   return caller ? kDone : caller.error().reason;
 }
 
-// At the gate: role first, then quota.
+// At admission the role is checked first, then the quota.
 TEST(Matrix, RoleAndQuotaAtTheGate) {
   World world([](World& configured) {
     configured.limits.calls = 1;
@@ -185,7 +185,7 @@ TEST(Matrix, RoleAndQuotaAtTheGate) {
   }
 }
 
-// A place that is given back is free again, and one is nobody else's.
+// A returned place is free again, and the quota of one caller does not affect other callers.
 TEST(Matrix, QuotaIsOfOneCallerAndIsGivenBack) {
   World world([](World& configured) { configured.limits.calls = 1; });
   Admission& admission = world.api->admission;
@@ -198,7 +198,7 @@ TEST(Matrix, QuotaIsOfOneCallerAndIsGivenBack) {
   EXPECT_EQ(admission.take_place(Kind::list_devices, kAnna), nullptr);
 }
 
-// `admin_commands` of the configuration take three kinds from operators, and no other.
+// `admin_commands` in the configuration keeps exactly three kinds from operators.
 TEST(Matrix, WhatTheConfigurationKeepsForAdministrators) {
   World kept;
   World given([](World& configured) { configured.access_config.admin_commands = {}; });
@@ -211,7 +211,7 @@ TEST(Matrix, WhatTheConfigurationKeepsForAdministrators) {
   }
 }
 
-// Behind the gate the role is asked again, of all but a stop.
+// After admission the role is checked again, for all requests but a stop.
 TEST(Matrix, RoleBehindTheGate) {
   World world([](World& configured) { configured.access_config.admin_commands = {}; });
   save_position(world);
@@ -252,7 +252,7 @@ std::vector<Circumstances> all_circumstances() {
   return all;
 }
 
-// README, "Lease, latch and deadline": the latch goes before the lease.
+// README, "Lease, latch and deadline": the latch is checked before the lease.
 Reason by_right(const Circumstances& now) {
   if (now.latched) return Reason::stopped_by;
   if (now.lease == Lease::of_another) return Reason::lease_held;
@@ -282,7 +282,7 @@ Reason expected(const Row& row, const Circumstances& now) {
   return Reason::internal;
 }
 
-// The caller is the administrator, whom no role keeps from anything.
+// Rights creates and undoes the circumstances of a request. The caller is an administrator, so that no role refuses it.
 class Rights {
  public:
   explicit Rights(World& world) : world_(world) {}

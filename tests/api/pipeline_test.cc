@@ -1,4 +1,4 @@
-// The order of the checks, validate_only, and time that runs out; and stops, which have a way of their own.
+// Tests of the order of the checks, of validate_only and deadlines, and of stops, which bypass most checks.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// An unknown unit, which the device would refuse.
+// Returns a move in an unknown unit, which the device would refuse.
 Move move_in_no_unit() { return {{{.axis = 1, .distance = {{1, 0}, Unit::millimeters}}}, true}; }
 
 Reason reason_of_asked(const World& world, const Call& call, const std::string& device, const Result<Move>& move) {
@@ -24,7 +24,7 @@ TEST(PipelineTest, OfSeveralFaultsTheFirstIsNamed) {
   World world;
   Call call = World::by(kAnna);
   const Result<Move> unreadable = fail(Reason::unknown_axis, "there is no axis 4");
-  // From the last fault to the first.
+  // Adds faults from the last that is checked to the first.
   EXPECT_EQ(reason_of_asked(world, call, kDevice, move_in_no_unit()), Reason::unknown_unit);
   EXPECT_EQ(reason_of_asked(world, call, kDevice, unreadable), Reason::unknown_axis);
   call.request_id = "\n";
@@ -37,7 +37,7 @@ TEST(PipelineTest, OfSeveralFaultsTheFirstIsNamed) {
   EXPECT_EQ(reason_of_asked(world, call, "devices/none", unreadable), Reason::unauthenticated);
 }
 
-// An unknown name goes before the right to its axes.
+// An unknown name is refused before the right to its axes is checked.
 TEST(PipelineTest, WhatThereIsGoesBeforeTheRightToIt) {
   World world;
   (void)world.lease_of("unix eve");
@@ -59,7 +59,7 @@ TEST(PipelineTest, APassedEpochIsRefused) {
   EXPECT_EQ(world.reason_of_move(call), Reason::unspecified);
 }
 
-// Its caller would otherwise wait until the connection breaks, and not know that nothing was done.
+// Otherwise the caller would wait until the connection breaks, and would not know that nothing was done.
 TEST(PipelineTest, WhatComesAfterTheEndOfADeviceIsRefused) {
   World world;
   world.device().shutdown();
@@ -88,7 +88,8 @@ TEST(PipelineTest, ValidateOnlyPostsNothing) {
   EXPECT_TRUE(world.positions->find("turn", "saved"));
 }
 
-// Every kind that starts a motion, also where its plan has faults: scans, paths and saved positions a rotor cannot do.
+// Applies to every kind that starts a motion, even if its plan is faulty: a rotor does not support scans, paths and
+// saved positions.
 TEST(PipelineTest, WhileTheDeviceIsNotUpNothingThatMovesIsPlanned) {
   World world;
   save_position(world);
@@ -98,7 +99,7 @@ TEST(PipelineTest, WhileTheDeviceIsNotUpNothingThatMovesIsPlanned) {
     if (rule_of(kind).patience == Patience::motion) moving.push_back(kind);
   }
   ASSERT_EQ(moving.size(), 7U);
-  Asking<std::string> silent;  // so that it does not come up again
+  Asking<std::string> silent;  // prevents that the device comes up again
   world.api->simulators.operate(World::by(kAnna), kDevice, "fault silent", silent.answer());
   ASSERT_EQ(silent.reason(), Reason::unspecified);
   world.on_strand([](stage::StageController& controller, TimePoint now) { controller.link_down(now, "unplugged"); });
@@ -134,7 +135,7 @@ TEST_F(SlowWorld, ADeadlineThatPassesWhileAMotionWaits) {
   EXPECT_EQ(ask(world_, RequestKind::stop, World::by(kAnna)), Reason::unspecified);
 }
 
-// The device's strand is busy until the time is over.
+// The device's strand is busy until the deadline has passed.
 TEST_F(SlowWorld, ADeadlineThatPassesBeforeTheDeviceIsReached) {
   world_.device().post([](stage::StageController&, TimePoint) { std::this_thread::sleep_for(milliseconds(60)); });
   Call call = World::by(kAnna);
@@ -169,7 +170,7 @@ TEST_F(SlowWorld, AStopNamesItsAxesAndItsDevice) {
   EXPECT_EQ(emergency.reason(), Reason::unknown_device);
 }
 
-// Anna's own stop leaves no latch; another's does, until she rearms.
+// Anna's own stop leaves no latch; a stop by another caller does, until Anna rearms.
 TEST_F(SlowWorld, AnothersStopLatches) {
   ASSERT_TRUE(world_.move(World::by(kAnna), 100'000));
   EXPECT_EQ(ask(world_, RequestKind::stop, World::by(kAnna)), Reason::unspecified);

@@ -1,4 +1,4 @@
-// Requests that come again under the same id: each acts once.
+// Tests of requests that are repeated with the same id: each acts once.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -39,7 +39,7 @@ TEST(RepeatsTest, H34_AMoveThatComesAgainIsTheSameMotion) {
   EXPECT_EQ(motions_of(world), 1u);
 }
 
-// All at once: one acts, and all hear of the same motion.
+// Only one of twenty simultaneous requests acts; all receive the same motion.
 TEST(RepeatsTest, ManyAtOnceAreOneMotion) {
   World world;
   std::vector<Asking<StartedMotion>> askings(20);
@@ -75,7 +75,7 @@ TEST(RepeatsTest, ARefusalLeavesTheIdFree) {
   EXPECT_EQ(world.reason_of_move(call_with("align-17")), Reason::unspecified);
 }
 
-// What was done stays done, whatever has passed since.
+// A repeat receives the earlier result, even if epochs, leases or deadlines have changed since.
 TEST(RepeatsTest, ARepeatIsAnsweredBeforeEpochsLeasesAndDeadlines) {
   World world;
   ASSERT_TRUE(world.move(call_with("align-17"), 10));
@@ -141,7 +141,7 @@ TEST(RepeatsTest, AJogNeverStartsTwice) {
   EXPECT_EQ(motions_of(world), 1u);
 }
 
-// The latch of a stop that came after the first one stays.
+// A repeated rearm does not end the latch of a stop that came after the first rearm.
 TEST(RepeatsTest, ARearmIsDoneOnce) {
   World world;
   world.latch(kAnna);
@@ -157,7 +157,7 @@ TEST(RepeatsTest, ARearmIsDoneOnce) {
   EXPECT_EQ(world.reason_of_move(call_with("")), Reason::stopped_by);
 }
 
-// The answer was lost; the lease has gone, as was requested.
+// The first answer was lost, but the lease was released as requested.
 TEST(RepeatsTest, AReleaseIsDoneOnce) {
   World world;
   Call call = call_with("release-1");

@@ -1,4 +1,4 @@
-// Requests as the log shows them.
+// Tests of the texts of requests in the log.
 #include "server/api/request/request_texts.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Over a restart of the daemon: watchers of events resume, and motions of the run before are known.
+// Tests of a restart of the daemon: watchers of events resume, and motions of the previous run are still known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using stage::MotionState;
 
 void with_journal(World& world) { world.journal_config.kept = true; }
 
-// The newest that the reader can have now, and all on the way there.
+// Reads all events up to the newest revision.
 std::vector<Event> read_to_newest(World& world, Reader<Event>& reader) {
   std::vector<Event> events;
   do {

@@ -1,4 +1,4 @@
-// Stops of one device and of several, each of which answers for itself.
+// Tests of stops of one device and of several devices, each with a separate result.
 #include <gtest/gtest.h>
 
 #include "tests/api/world.h"
@@ -6,10 +6,10 @@
 namespace axisgate::api {
 namespace {
 
-// "turn" is slow, and so is "table"; nothing answers on the line of "gone".
+// Fixture with three devices: "turn" and "table" are slow, and nothing answers on the line of "gone".
 class StopsTest : public ::testing::Test {
  protected:
-  // The device's first motion, which lasts.
+  // Starts the device's first motion, which lasts long.
   void start(const char* device) {
     Asking<StartedMotion> asking;
     world_.api->motions.move(World::by(kAnna), device, World::way_of(1'000'000), asking.answer());
@@ -23,7 +23,7 @@ class StopsTest : public ::testing::Test {
   }};
 };
 
-// Those that can be stopped are, whatever becomes of the others.
+// Every device that can be stopped is stopped, whatever happens to the others.
 TEST_F(StopsTest, WithoutADeviceAllAreStopped) {
   start("devices/turn");
   start("devices/table");
@@ -51,7 +51,7 @@ TEST_F(StopsTest, AsTheDaemonEndsEachClosedLineSaysSo) {
   for (const DeviceStop& one : *stops) EXPECT_EQ(one.report.problem->reason, Reason::daemon_ending);
 }
 
-// Which axes of which device: not guessed.
+// The gateway does not guess which device the axes belong to.
 TEST_F(StopsTest, AxesOfSeveralDevicesNeedTheirDevice) {
   Asking<std::vector<DeviceStop>> asking;
   world_.api->stops.stop(World::by(kAnna), "", stage::AxisSet::of(1), asking.answer());

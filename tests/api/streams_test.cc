@@ -1,4 +1,4 @@
-// How many streams there may be, of whom, and how the daemon ends them.
+// Tests of the limits for streams, in total and for each caller, and of the end of streams when the daemon ends.
 #include "server/api/request/streams.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Commands, settings, saved positions, tokens, and what stands in the log.
+// Tests of commands, settings, saved positions and tokens, and of their log entries.
 #include <gtest/gtest.h>
 
 #include "server/api/request/audit.h"
@@ -74,7 +74,7 @@ TEST_F(CommandsOfApi, SomeLinesAreForAdministrators) {
   EXPECT_EQ(refusal({{"L:1", "reset:"}}, kAdmin), "");
 }
 
-// Takes any setting, with one line for each.
+// AnySetting is a kind of device that accepts any setting, with one line for each.
 class AnySetting final : public stage::Kind {
  public:
   std::string_view name() const override { return "any"; }

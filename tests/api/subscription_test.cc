@@ -1,4 +1,4 @@
-// Streams: what a slow reader misses and what it does not, how they end, and where they are resumed.
+// Tests of streams: items that a slow reader misses, the ends of streams, and resuming a stream.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -113,7 +113,7 @@ TEST(MotionStream, FromItsStartToItsOutcome) {
   EXPECT_FALSE(reader.end().problem);
 }
 
-// What it missed is gone from the bus: the motion as it is now takes its place.
+// The missed events are no longer on the bus, so the reader receives the present state of the motion instead.
 TEST(MotionStream, ATooSlowReaderReceivesTheMotionAsItIs) {
   World world;
   const StartedMotion motion = world.move(World::by(kAnna), 2000);
@@ -203,7 +203,7 @@ TEST(AtTheEndOfTheDaemon, EveryKindOfStreamSaysSo) {
   }
 }
 
-// Each stream takes one place, and gives it back.
+// Each stream takes one place of the quota, and returns it at its end.
 TEST(StreamPlaces, AreTakenAndGivenBack) {
   World world;
   std::vector<std::shared_ptr<Path>> paths;

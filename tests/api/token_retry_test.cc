@@ -1,4 +1,4 @@
-// A revocation that could not be written: it holds at once, and is tried again until it is on disk.
+// Tests of a revocation that could not be written: it is effective at once, and is retried until it is on disk.
 #include "server/api/sharing/token_retry.h"
 
 #include <gmock/gmock.h>
@@ -25,14 +25,14 @@ class TokenRetryTest : public ::testing::Test {
   TokenRetryTest() { fs::create_directories(folder_); }
   ~TokenRetryTest() override { fs::remove_all(folder_); }
 
-  // Also for root, whom no mode hinders.
+  // Makes writing fail, also for root, who ignores file modes.
   void break_disk() { fs::create_directory(folder_ + "/tokens.new"); }
   void repair_disk() { fs::remove(folder_ + "/tokens.new"); }
 
   std::string make(const std::string& name) {
     return tokens_->create(name, server::Role::observer, now_ + std::chrono::hours(1), now_).value_or("");
   }
-  // As a restart of the daemon would read it.
+  // Reports whether the token would be revoked after a restart of the daemon.
   bool revoked_on_disk(const std::string& token) {
     return !(*server::Tokens::open(folder_ + "/tokens"))->check(token, now_);
   }

@@ -1,4 +1,4 @@
-// A gateway with one simulated rotor, and its api: no gRPC, no SHRC-203.
+// Gateway with one simulated rotor, and its Api: no gRPC, no SHRC-203.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,9 +30,9 @@ namespace axisgate::api {
 inline constexpr std::chrono::seconds kTestPatience{20};
 inline constexpr const char* kDevice = "devices/turn";
 inline constexpr const char* kAdmin = "unix root";
-inline constexpr const char* kAnna = "unix anna";  // an operator
+inline constexpr const char* kAnna = "unix anna";  // has the role operator
 
-// Waits for a condition that another thread brings about.
+// Waits for a condition that another thread makes true. Returns false if it stays false for kTestPatience.
 template <class Condition>
 bool comes_true(Condition condition) {
   const TimePoint limit = monotonic_now() + kTestPatience;
@@ -43,7 +43,7 @@ bool comes_true(Condition condition) {
   return true;
 }
 
-// The answer of something asked, once it has come.
+// An Asking waits for the answer to one request.
 template <class Outcome>
 class Asking {
  public:
@@ -55,7 +55,7 @@ class Asking {
     if (future_.wait_for(kTestPatience) == std::future_status::ready) return future_.get();
     return fail(Reason::internal, "the test has had no answer");
   }
-  // unspecified: it was done.
+  // Waits for the answer and returns the reason of the refusal; unspecified if the request was done.
   Reason reason() {
     const Result<Outcome> outcome = get();
     return outcome ? Reason::unspecified : outcome.error().reason;
@@ -66,7 +66,7 @@ class Asking {
   std::future<Result<Outcome>> future_ = promise_->get_future();
 };
 
-// A reader of a stream, at its test's pace.
+// A Reader reads a stream, one item whenever the test asks for it.
 template <class Item>
 class Reader {
  public:
@@ -81,7 +81,7 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  // The next item; nothing: the end.
+  // Returns the next item; nullopt at the end of the stream.
   std::optional<Item> next() {
     const TimePoint limit = monotonic_now() + kTestPatience;
     while (monotonic_now() < limit) {
@@ -98,14 +98,14 @@ class Reader {
     end_ = StreamEnd{Problem{.reason = Reason::internal}};
     return std::nullopt;
   }
-  // Reads on to the end. unspecified: it ended in order.
+  // Reads to the end and returns the reason; unspecified if the stream ended in order.
   Reason reason() {
     while (next()) {
     }
     return end_->problem ? end_->problem->reason : Reason::unspecified;
   }
   const StreamEnd& end() const { return *end_; }
-  // There is something now, without waiting.
+  // Reports whether an item or the end is available without waiting. Consumes it.
   bool has_something() { return !std::holds_alternative<typename Subscription<Item>::Nothing>(subscription_->next()); }
   int wake_ups() const {
     const std::lock_guard lock(woken_->mutex);
@@ -132,7 +132,7 @@ class Reader {
   bool closed_ = false;
 };
 
-// With local callers as operators, and one observer, "unix olaf".
+// A World is a gateway in which local callers are operators, except the observer "unix olaf".
 class World {
  public:
   // `configure` sets access_config, limits, journal_config and device_text.
@@ -149,7 +149,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  // The daemon is started again, on what it keeps; only with a journal. Without `in_order` it had been killed.
+  // Restarts the daemon with its stored data. Needs a journal. If `in_order` is false, the daemon appears to have been
+  // killed.
   void restart(bool in_order) {
     if (in_order) journal->append({{.kind = server::journal::EntryKind::daemon_ended}});
     end();
@@ -161,7 +162,7 @@ class World {
   server::Stage& device() { return *gateway->find_stage("turn"); }
   stage::State state() { return *device().newest_state().get().value; }
 
-  // Runs it on the device's strand, and waits for it.
+  // Runs a task on the device's strand, and waits for its end.
   template <class Task>
   void on_strand(Task task) {
     std::promise<void> done;
@@ -172,9 +173,9 @@ class World {
     done.get_future().wait();
   }
 
-  // The token of a lease over all axes.
+  // Acquires a lease over all axes and returns its token; 0 if it was not granted at once.
   server::LeaseToken lease_of(const std::string& who) {
-    // Answered at once, or when somebody else's axes come free: after this function has returned.
+    // The callback may run after this function has returned, when another lease ends.
     const auto token = std::make_shared<std::atomic<server::LeaseToken>>(0);
     on_strand([&](stage::StageController&, TimePoint now) {
       device().leases().acquire({.axes = stage::AxisSet::all()}, who, false, now, now,
@@ -185,7 +186,7 @@ class World {
 
   std::string sealed(server::LeaseToken token) const { return gateway->lease_tokens().seal(token); }
 
-  // Somebody else stops what `who` moves: nothing moves for `who` until rearm.
+  // Lets another caller stop a motion of `who`, so that `who` cannot move until rearm.
   void latch(const std::string& who) {
     on_strand([&](stage::StageController&, TimePoint now) {
       constexpr stage::MotionId kNobodysMotion = 1'000'000;
@@ -210,7 +211,7 @@ class World {
     });
   }
 
-  // A token of that role; empty: refused.
+  // Creates a token with this role; empty if it was refused.
   std::string token(const std::string& name, server::Role role) {
     const server::Calendar now = server::calendar_now();
     return access->tokens().create(name, role, now + std::chrono::hours(1), now).value_or("");
@@ -232,10 +233,10 @@ class World {
   server::AccessConfig access_config;
   server::LimitsConfig limits;
   server::JournalConfig journal_config{.kept = false};
-  std::string device_text = "speed = 20\n";  // how much faster than life
+  std::string device_text = "speed = 20\n";  // factor by which the simulation is faster than real time
   std::unique_ptr<server::Access> access;
   std::unique_ptr<server::SavedPositions> positions;
-  std::unique_ptr<server::journal::Journal> journal;  // null: none is kept
+  std::unique_ptr<server::journal::Journal> journal;  // null: no journal
   std::unique_ptr<server::Gateway> gateway;
   std::unique_ptr<Api> api;
 

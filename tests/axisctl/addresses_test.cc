@@ -1,4 +1,4 @@
-// What people type as --target, and what gRPC gets.
+// Tests of the conversion of --target to gRPC addresses.
 #include "clients/axisctl/addresses.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Addresses, OfTargets) {
   for (const auto& [typed, expected] : rows) EXPECT_EQ(address(typed, false), expected) << typed;
 }
 
-// `listen` is on loopback alone: TLS is that of [network].
+// TLS always means the port of [network], because `listen` accepts only loopback addresses.
 TEST(Addresses, OfTargetsWithTls) {
   const Row rows[] = {
       {"gateway.lab", "gateway.lab:50204"},

@@ -1,4 +1,4 @@
-// How far a cut-out of 38 x 30 x 1.7 mm reaches.
+// Extent of a job that cuts out 38 x 30 x 1.7 mm.
 #pragma once
 
 #include "axisgate/v1/mill.pb.h"

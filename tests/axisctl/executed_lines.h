@@ -1,4 +1,4 @@
-// Where what was executed of a job ends: at the beginnings of two lines.
+// Range of places at which the executed part of a job ends: the beginnings of two lines.
 #pragma once
 
 #include "axisgate/v1/mill.pb.h"

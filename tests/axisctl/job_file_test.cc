@@ -1,4 +1,4 @@
-// Which files are read as jobs.
+// Tests of the reading of job files.
 #include "clients/axisctl/mill/job_file.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ TEST_F(JobFile, IsReadWhole) {
   EXPECT_EQ(bytes, "^IN;PU0,0;");
 }
 
-// A FIFO may never end, and a device may never be full.
+// FIFOs and devices are refused, because reading them may never end.
 TEST_F(JobFile, IsARegularFile) {
   const std::string fifo = folder_ / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
@@ -64,7 +64,7 @@ TEST_F(JobFile, IsRefusedIfItGrowsMeanwhile) {
   EXPECT_THAT(why_refused(name_, 0, grow), HasSubstr("was written to while it was read"));
 }
 
-// A daemon is not needed for that.
+// A missing file is reported without a call to the daemon.
 TEST_F(JobFile, IsLookedAtBeforeTheDaemonIsAsked) {
   options_.job.files = {folder_ / "missing.rml"};
   EXPECT_EQ(run(mill_send).exit_code, kUsage);

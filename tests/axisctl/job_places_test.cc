@@ -1,4 +1,4 @@
-// Places in a job as they are typed with --from.
+// Tests of the places in a job that are typed with --from.
 #include "clients/axisctl/mill/job_places.h"
 
 #include <gtest/gtest.h>

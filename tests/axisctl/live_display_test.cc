@@ -1,4 +1,4 @@
-// What is shown while something is followed, and what Ctrl-C then says.
+// Tests of the live display, and of the message at Ctrl-C.
 #include "clients/axisctl/live_display.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Only one row of a terminal is rewritten.
+// Only one row of a terminal can be rewritten.
 TEST(LiveRow, IsNotWiderThanTheTerminal) {
   const std::string expected = "01234567890123456789\r\x1b[K";
   std::string shown;

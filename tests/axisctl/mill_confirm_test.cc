@@ -1,4 +1,4 @@
-// `axisctl mill confirm`: what a person is asked, what is requested, and what starts.
+// Tests of `axisctl mill confirm`: its question, its requests, and the start of the job.
 #include <gmock/gmock.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <unistd.h>

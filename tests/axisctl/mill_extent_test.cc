@@ -1,4 +1,4 @@
-// Texts about the size of a job, and about the warnings that its sender has accepted.
+// Tests of the texts about the size of a job, and about the warnings that its sender has accepted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

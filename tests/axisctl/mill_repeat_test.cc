@@ -1,4 +1,4 @@
-// Ended jobs that are queued once more, whole or from a line on: what is requested of the daemon.
+// Tests of the requests that queue an ended job once more, whole or from a line on.
 #include <gmock/gmock.h>
 
 #include "clients/axisctl/failure.h"

@@ -1,4 +1,4 @@
-// What axisctl says about a mill's jobs. Sizes, times and ranges are typed by hand: of 30,000 bytes 12,300 are 41 %.
+// Tests of axisctl's texts about a mill's jobs. Numbers are typed by hand: 12,300 of 30,000 bytes are 41 %.
 #include "clients/axisctl/mill/mill_text.h"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ v1::Job frame(int number, v1::JobState state) {
   return job;
 }
 
-// 600 to 1000 s for 30,000 bytes.
+// Sets the remaining time of a job that takes 600 to 1000 s for 30,000 bytes.
 void set_left(v1::RunningJob& running, std::int64_t executed_least, std::int64_t executed_most) {
   const auto left = [](std::int64_t ms_a_byte, std::int64_t executed) {
     return TimeUtil::MillisecondsToDuration(ms_a_byte * (30'000 - std::clamp<std::int64_t>(executed, 0, 30'000)));
@@ -76,7 +76,7 @@ TEST(MillProgress, ARangeWithItsTimeLeft) {
       "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 12300 taken, 5 min 36 s to 9 min 50 s left");
 }
 
-// What may not be executed yet never counts as executed, and the other way round.
+// The lower bound is rounded down and the upper bound up, so that the range never excludes the truth.
 TEST(MillProgress, RoundsOutwards) {
   EXPECT_EQ(progress(15'000, 299, 301).substr(0, 31), "SENDING [-         ] 0 to 2 %, ");
   EXPECT_EQ(progress(30'000, 29'999, 30'000),
@@ -90,7 +90,7 @@ TEST(MillProgress, OneNumberWhereBothEndsAreTheSame) {
             "SENDING [==========] 100 %, 30000 of 30000 bytes written, 30000 taken, 0 s left");
 }
 
-// Numbers beyond the job, or a job without a size, come from a daemon that is wrong: the line stays a line.
+// A faulty daemon may send numbers beyond the job, or a job without a size. The text must still be one valid line.
 TEST(MillProgress, WithinTheJob) {
   EXPECT_EQ(progress(30'000, -5, 40'000),
             "SENDING [----------] 0 to 100 %, 30000 of 30000 bytes written, -5 taken, 0 s to 16 min 40 s left");
@@ -126,7 +126,7 @@ TEST(MillTexts, WhatRunsOn) {
   EXPECT_EQ(run_on_text(run_on(1, 1)), "after an abort at most 1 byte run on");
 }
 
-// 15,000 written, 20 of them still here, 14,970 executed at most: 10 of those that the mill has still run.
+// 15,000 bytes are written, 20 of them are still on this host, and at most 14,970 are executed: at least 10 still run.
 TEST(MillTexts, APauseSaysWhatStillRuns) {
   v1::RunningJob paused = running(15'000, 14'000, 14'970);
   paused.set_unsent(20);
@@ -143,7 +143,7 @@ TEST(MillTexts, APauseSaysWhatStillRuns) {
   EXPECT_EQ(paused_text(paused), "job 7 is paused: 64 bytes of it still run; the cutter keeps turning in the cut");
 }
 
-// To a tenth, and from 10 s on to a second, never down.
+// The time is rounded up: below 10 s to a tenth of a second, otherwise to a second.
 TEST(MillTexts, WhatRunsOnHasATime) {
   const auto text = [](std::int64_t ms) {
     v1::RunOn bound = run_on(64, 64);
@@ -178,7 +178,7 @@ TEST(MillTexts, AnAbortNeverSaysThatTheMillHasStopped) {
             "own emergency stop");
 }
 
-// Seen through the mill's profile: its panel may have held it.
+// The text says "by the mill's profile", because the panel may have held the mill.
 TEST(MillTexts, WhereWhatWasExecutedEnds) {
   v1::AbortJobResponse response;
   *response.mutable_running() = running(15'000, 12'300, 13'200);
@@ -333,7 +333,7 @@ TEST(MillQueue, WhereAJobContinues) {
             "job 7 (frame.rml) PAUSED, from line 8 on, on the workpiece of job 3; takes 10 min 0 s to 16 min 40 s");
 }
 
-// Of each job of the queue what is said of its beginning. Column by column, so that the widths are of no account.
+// Returns the cell "begins at the earliest" of each job, found by the headings, so that the widths do not matter.
 Lines beginnings(const v1::Mill& mill) {
   const Lines lines = queue_lines(mill);
   const std::size_t begin = lines[2].find("begins at the earliest"), end = lines[2].find("confirmed");
@@ -345,7 +345,7 @@ Lines beginnings(const v1::Mill& mill) {
   return cells;
 }
 
-// 12,300 to 13,200 of 30,000 bytes are executed: 336 to 590 s are left.
+// 12,300 to 13,200 of 30,000 bytes are executed, so 336 to 590 s are left.
 TEST(MillQueue, WhatWaitsBeginsWhenAllBeforeItIsDone) {
   v1::Mill mill;
   *mill.add_jobs() = frame(7, v1::JOB_STATE_RUNNING);

@@ -1,4 +1,4 @@
-// The verbs of `axisctl mill` that call the daemon: what they request, what they print, and how they exit.
+// Tests of the `axisctl mill` verbs that call the daemon: their requests, output and exit codes.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -46,7 +46,7 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   const v1::SendJobRequest& first = mill_.sent[0];
   EXPECT_EQ(first.device(), "devices/mill");
   EXPECT_EQ(first.title(), "frame.rml");
-  EXPECT_EQ(first.tool(), "T1");  // the first one of the mill
+  EXPECT_EQ(first.tool(), "T1");  // the first tool of the mill
   EXPECT_EQ(first.origin(), "");
   EXPECT_THAT(first.accepted_warnings(), ElementsAre("deep-pass", "outside-stock"));
   EXPECT_EQ(first.streaming(), v1::STREAMING_FULL);
@@ -78,7 +78,7 @@ TEST_F(MillSend, WhatWasNamedIsSent) {
   EXPECT_EQ(mill_.sent[0].origin(), "vice");
 }
 
-// The daemon would name bytes and lengths, but not the option that helps.
+// axisctl itself refuses names that are not valid titles: the daemon's message would not name the option --title.
 TEST_F(MillSend, AFileWhoseNameIsNoTitleNeedsOne) {
   for (const std::string& name : {std::string("lat\xB2in.rml"), std::string(101, 'x'), std::string(".rml")}) {
     options_.job.files = {folder_ / name};
@@ -131,7 +131,7 @@ TEST_F(MillSend, AMillWithoutTools) {
 
 TEST_F(MillSend, InPieces) {
   std::string job(2 * kPieceSent + 5, ';');
-  job.back() = '\0';  // any bytes
+  job.back() = '\0';  // a job may contain any bytes
   write_job(job);
   EXPECT_EQ(run(mill_send).exit_code, kDone);
   std::string received;

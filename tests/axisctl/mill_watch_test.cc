@@ -1,4 +1,4 @@
-// How axisctl follows a job, and how it exits at the job's end.
+// Tests of following a job, and of the exit code at the job's end.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class MillWatch : public MillVerbs {
  protected:
   MillWatch() { add_job(v1::JOB_STATE_RUNNING); }
 
-  // The mill as it is reported next.
+  // Adds the state of the mill that the daemon reports next.
   v1::Mill& report(v1::SendingState sending, std::int64_t executed) {
     v1::Mill& state = mill_.watched.emplace_back(mill_.mill);
     v1::RunningJob& running = *state.mutable_running();
@@ -108,7 +108,7 @@ TEST_F(MillWatch, AbortedIsNoSuccess) {
   EXPECT_EQ(run(mill_watch).reason, "ABORTED");
 }
 
-// As a newer daemon may send it.
+// A newer daemon may send an unknown state.
 TEST_F(MillWatch, AnUnknownStateIsNoSuccess) {
   report(v1::SENDING_STATE_SENDING, 0);
   report_end(static_cast<v1::JobState>(99));
@@ -123,7 +123,7 @@ TEST_F(MillWatch, AJobThatIsGoneIsNotSaidToBeAborted) {
   EXPECT_EQ(ended.reason, "OUTCOME_UNKNOWN");
 }
 
-// Its short last state as one that runs may not have been seen.
+// The job may leave the queue before its short last state was reported.
 TEST_F(MillWatch, HowAJobThatIsGoneHasEndedIsReported) {
   report(v1::SENDING_STATE_SENDING, 0);
   v1::Mill& gone = mill_.watched.emplace_back(mill_.mill);
@@ -162,7 +162,7 @@ TEST_F(MillWatch, ADaemonThatEnds) {
   EXPECT_EQ(ended.exit_code, kFailed);
   EXPECT_EQ(ended.message, "the daemon reports no more of job 7: the daemon ends");
   mill_.watched.clear();
-  EXPECT_EQ(run(mill_watch).exit_code, kUnavailable);  // nothing was seen to run
+  EXPECT_EQ(run(mill_watch).exit_code, kUnavailable);  // no job was seen running
 }
 
 TEST_F(MillWatch, TheNextJobWhereNoneRuns) {
@@ -196,7 +196,7 @@ TEST_F(MillWatch, OneObjectAMessage) {
   EXPECT_THAT(output, HasSubstr("\"running\":{\"job\":\"devices/mill/jobs/7\""));
 }
 
-// The newest state may be from before the start.
+// The first reported state may be older than the start.
 TEST_F(MillWatch, AJobThatWasJustStarted) {
   mill_.watched.push_back(mill_.mill);
   mill_.watched[0].mutable_jobs(0)->set_state(v1::JOB_STATE_CONFIRMED);

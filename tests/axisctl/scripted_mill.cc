@@ -166,7 +166,7 @@ MillVerbs::MillVerbs() {
 }
 
 MillVerbs::~MillVerbs() {
-  server_->Shutdown(std::chrono::system_clock::time_point());  // past: streams that are open end
+  server_->Shutdown(std::chrono::system_clock::time_point());  // a deadline in the past ends open streams
   std::filesystem::remove_all(folder_);
 }
 

@@ -1,5 +1,5 @@
-// A daemon with a stage and one mill, whose answers a test sets, and axisctl's verbs on it, within the process of the
-// test.
+// Scripted daemon with a stage and one mill, and a fixture that runs axisctl's verbs on it, all within the process of
+// the test.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -16,24 +16,25 @@
 
 namespace axisgate::axisctl {
 
-// Keeps what was requested. Each vector of answers is used from its front; the last answer stays.
+// A ScriptedMill answers as the test has set, and records all requests. Each vector of answers is used from its front;
+// the last answer is repeated.
 class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::Service {
  public:
-  std::vector<grpc::Status> statuses{grpc::Status::OK};  // of the calls that change something
+  std::vector<grpc::Status> statuses{grpc::Status::OK};  // answers of mutations
   v1::Mill mill;
   v1::ListDevicesResponse there;
-  std::vector<v1::Mill> watched;  // then the stream stays open, unless watch_ends
+  std::vector<v1::Mill> watched;  // after these the stream stays open, unless watch_ends
   bool watch_ends = false;
 
-  std::vector<std::string> calls;  // "SendJob", in their order
+  std::vector<std::string> calls;  // names of the calls in order, such as "SendJob"
   std::vector<v1::SendJobRequest> sent;
   std::vector<v1::ConfirmJobRequest> confirmed;
   std::vector<v1::StartJobRequest> started;
   std::vector<v1::PauseJobRequest> paused;
   std::vector<v1::ContinueJobRequest> continued;
   std::vector<v1::RepeatJobRequest> repeated;
-  std::vector<std::string> cleared;        // whose jobs
-  std::vector<std::string> devices, jobs;  // that were named by the other requests
+  std::vector<std::string> cleared;        // owners of the cleared jobs
+  std::vector<std::string> devices, jobs;  // names in the other requests
 
   grpc::Status ListDevices(grpc::ServerContext* context, const v1::ListDevicesRequest* request,
                            v1::ListDevicesResponse* response) override;
@@ -70,10 +71,10 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
   grpc::Status next_status();
 };
 
-// How a verb ended: as main() has it.
+// Result of a verb, as main() would report it.
 struct Ended {
   int exit_code = 0;
-  std::string output, reason, message, hint;  // without a Failure the last three are empty
+  std::string output, reason, message, hint;  // reason, message, hint: empty without a Failure
 };
 
 class MillVerbs : public ::testing::Test {
@@ -83,9 +84,9 @@ class MillVerbs : public ::testing::Test {
 
   Ended run(int (*verb)(const Session&));
 
-  // Among the devices that there are.
+  // Adds a device to the daemon's list.
   void add_device(const std::string& name, const std::string& kind);
-  // Numbers 7, 8, ...; of 30,000 bytes.
+  // Adds a job of 30,000 bytes. Jobs are numbered 7, 8, ...
   v1::Job& add_job(v1::JobState state);
 
   ScriptedMill mill_;

@@ -1,4 +1,4 @@
-// Which device a verb means where none is named, and where one is.
+// Tests of the choice of the device, with and without --device.
 #include "clients/axisctl/session.h"
 
 #include <gmock/gmock.h>
@@ -15,12 +15,12 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-// With a stage and a mill.
+// Fixture of a daemon with a stage and a mill.
 class ChosenDevice : public MillVerbs {
  protected:
   ChosenDevice() { options_.device = ""; }
 
-  // The name, or the message of the failure.
+  // Returns the name of the chosen device, or the message of the failure.
   std::string chosen(v1::Device (*choose)(const Session&)) const {
     try {
       return choose(Session{options_, Connection(options_.target)}).name();

@@ -1,4 +1,4 @@
-// A terminal in the place of a descriptor.
+// Terminal in the place of a file descriptor.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 
 namespace axisgate::axisctl {
 
-// Takes the place of a descriptor for as long as it lives.
+// A Terminal replaces a file descriptor until it is destroyed.
 class Terminal {
  public:
   explicit Terminal(int replaced, unsigned short columns = 80) : replaced_(replaced), kept_(::dup(replaced)) {
-    std::fflush(nullptr);  // what was printed before is not for the terminal
+    std::fflush(nullptr);  // earlier output must not reach the terminal
     winsize size{};
     size.ws_col = columns;
     int end = -1;
@@ -30,7 +30,7 @@ class Terminal {
   }
 
   void type(const std::string& text) { EXPECT_EQ(::write(person_, text.data(), text.size()), ssize_t(text.size())); }
-  // The next `count` bytes that were written to it.
+  // Returns the next `count` bytes that were written to the terminal.
   std::string read(std::size_t count) {
     std::string text(count, '\0');
     for (std::size_t at = 0; at < count;) {

@@ -1,4 +1,5 @@
-// One question at a time, by each of some callers: directly, through the daemon, and through the smallest gateway.
+// Measurement of callers that each ask one question at a time: directly, through the daemon, and through the minimal
+// gateway.
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,7 +27,8 @@ struct Options {
   Load load;
 };
 
-// Callers share out the targets, since the daemon limits what one source may ask for a second.
+// Returns the target of a caller. The callers are divided among the targets, because the daemon limits the requests per
+// second of one source.
 const std::string& target_of(const Options& options, int caller) {
   return options.targets[static_cast<std::size_t>(caller) % options.targets.size()];
 }
@@ -35,8 +37,8 @@ std::shared_ptr<grpc::Channel> channel_of(const Options& options, int caller) {
   return connect(target_of(options, caller), options.certificates);
 }
 
-// Callers share out the questions, so that each has its own where there are as many. Where there are fewer, several ask
-// the same.
+// Returns the questions of a caller. The questions are divided among the callers; if there are fewer questions than
+// callers, several callers ask the same question.
 std::vector<std::string> questions_of(const Options& options, int caller) {
   const auto& all = options.questions;
   std::vector<std::string> own;

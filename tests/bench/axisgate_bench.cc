@@ -1,4 +1,4 @@
-// axisgate-bench: one measurement from end to end, for bench.py, which starts what is measured.
+// axisgate-bench: runs one end-to-end measurement for bench.py, which starts the measured programs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -54,7 +54,7 @@ class Callers {
     latencies_.add(own);
   }
 
-  // What begins within the time counts: at its end as many are under way as were at its beginning.
+  // Counts the questions that begin within the measured time: as many are in progress at its end as at its beginning.
   void ask_until_over(const Ask& ask, Latencies& own) {
     while (phase_ != Phase::over) {
       const bool counts = phase_ == Phase::measuring;
@@ -72,7 +72,7 @@ class Callers {
   std::atomic<int> calls_ = 0;
   std::mutex mutex_;
   Latencies latencies_;
-  std::string failure_;  // the first
+  std::string failure_;  // the first failure
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Callers who ask one question after another, each on a thread of its own.
+// Load from callers that ask one question after another, each on a separate thread.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,17 @@ namespace axisgate::bench {
 struct Load {
   int callers = 1;
   double seconds = 1;
-  double warm_up = 0.3;  // seconds in which connections are made and nothing is counted
-  int pause_ms = 0;      // of a caller, between an answer and its next question
+  double warm_up = 0.3;  // seconds for making connections, before the measurement
+  int pause_ms = 0;      // pause of a caller between an answer and the next question
 };
 
-// Asks once, and throws where that fails.
+// Asks one question. Throws if it fails.
 using Ask = std::function<void()>;
-// Called on the caller's thread; callers count from 0.
+// Creates the Ask of a caller, on the caller's thread. Callers are numbered from 0.
 using MakeAsk = std::function<Ask(int caller)>;
 
-// The latencies of what was asked within the seconds, how many that is per second, and the calls of the warm-up, too.
+// Returns the latencies and the rate per second of the questions that began within the measured seconds, and the number
+// of all calls, including the warm-up.
 nlohmann::json measure_callers(const Load& load, const MakeAsk& make_ask);
 
 }  // namespace axisgate::bench

@@ -1,6 +1,5 @@
-// What a question and a move cost in CPU time: to the simulated controller alone, and through the gateway's core. The
-// time on the line is virtual, so that nothing waits. Compare the figures of one run: the core's own share is the
-// difference.
+// CPU time of a question and of a move: with the simulated controller alone, and through the gateway's core. The time
+// on the line is virtual, so nothing waits. Compare only figures of one run: their difference is the share of the core.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -16,7 +15,7 @@ namespace {
 
 using simulator::Simulator;
 
-// Bytes on their way to a machine; they arrive when nothing else is going on.
+// A Cable keeps the bytes that were sent to a machine until deliver() or take() is called.
 class Cable : public ByteLink {
  public:
   void write(std::string_view bytes) override { waiting_.append(bytes); }
@@ -38,7 +37,7 @@ class Nobody : public EventSink {
   void on_event(const Event&, TimePoint) override {}
 };
 
-// The simulator by itself, asked as a program that owns the port would.
+// Simulator without a gateway, asked as by a program that owns the port.
 class Alone {
  public:
   Alone() : device_({}, answers_) { device_.link_up(now_); }
@@ -64,7 +63,7 @@ class Alone {
   TimePoint now_{std::chrono::seconds(1)};
 };
 
-// The same behind the gateway's core.
+// Simulator behind the gateway's core.
 class Gateway {
  public:
   Gateway() : device_({}, answers_), controller_({}, commands_, nobody_) {
@@ -79,8 +78,8 @@ class Gateway {
                         [&](const ExecuteEvent& event) { ended = event.kind == ExecuteEvent::Kind::ended; });
     run_until([&] { return ended; });
   }
-  // One line is answered while so many others wait, and the next takes its place among them. All are different, since
-  // equal questions share an exchange.
+  // Waits for one answer while `waiting` other lines wait; each call first adds a line in place of the answered one.
+  // All lines are different, because equal questions share an exchange.
   void setting_among(std::size_t waiting) {
     while (begun_ < answered_ + waiting) {
       ++begun_;
@@ -131,7 +130,7 @@ void QuestionThroughTheCore(benchmark::State& state) {
 }
 BENCHMARK(QuestionThroughTheCore)->Unit(benchmark::kMicrosecond);
 
-// Sharing the line must not cost more the more callers wait: compare the times of 10 and of 250.
+// The cost of sharing the line must not grow with the number of waiting callers: compare the times for 10 and for 250.
 void SettingAmongOthers(benchmark::State& state) {
   Gateway gateway;
   for (auto _ : state) gateway.setting_among(static_cast<std::size_t>(state.range(0)));

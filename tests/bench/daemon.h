@@ -1,4 +1,4 @@
-// The daemon as a client program sees it.
+// Calls to the daemon as a client program makes them.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -14,17 +14,17 @@ namespace axisgate::bench {
 
 inline constexpr const char* kDevice = "devices/stage";
 
-// A connection of its own, as another program on the machine would have. `certificates`: the folder of
-// axisgate-certificates, in which "lab" is the authority and "anna" the caller; empty: without TLS.
+// Opens a separate connection, as another program on the machine would have. `certificates` is the folder of
+// axisgate-certificates, with the authority "lab" and the caller "anna"; empty: no TLS.
 std::shared_ptr<grpc::Channel> connect(const std::string& target, const std::string& certificates = {});
 
-// Throws what is no success.
+// Throws unless the call succeeded.
 void check(const grpc::Status& status);
 
-// The answers to the lines, once the call has ended. Throws where it has failed.
+// Sends the lines, waits for the end of the call, and returns the answers. Throws if the call failed.
 std::vector<std::string> execute(v1::CommandService::Stub& commands, const std::vector<std::string>& lines);
 
-// Starts a relative move of axis 1: the name of the motion.
+// Starts a relative move of axis 1, and returns the name of the motion.
 std::string start_move(v1::StageService::Stub& stage, std::int64_t pulses);
 
 }  // namespace axisgate::bench

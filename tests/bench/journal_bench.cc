@@ -1,5 +1,6 @@
-// A journal of AXISGATE_ROWS entries (a million without): how fast it is filled, and what a night, a page and the check
-// of its chain take. A move has four entries, and there is one every three seconds. Compare the figures of one run.
+// Speed of filling a journal with AXISGATE_ROWS entries (default: a million), and durations of reading a night and a
+// page and of checking the chain. There is a move every three seconds, with four entries. Compare only figures of one
+// run.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -60,7 +61,7 @@ Entry entry(std::int64_t number) {
   return made;
 }
 
-// Filled once, and removed at the end.
+// Journal that is filled once and removed at the end.
 class Filled {
  public:
   Filled() {
@@ -110,7 +111,7 @@ void Night(benchmark::State& state) {
   state.counters["file MB"] = static_cast<double>(filled().bytes()) / 1e6;
 }
 
-// The first hundred of one caller.
+// Reads the first hundred entries of one caller.
 void Page(benchmark::State& state) {
   const std::string& path = filled().path();
   for (auto _ : state) {
@@ -121,7 +122,7 @@ void Page(benchmark::State& state) {
   }
 }
 
-// One that has its entries far back.
+// Reads the entries of one motion, which are far back.
 void OneMotion(benchmark::State& state) {
   const std::string& path = filled().path();
   for (auto _ : state) {

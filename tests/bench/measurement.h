@@ -1,5 +1,5 @@
-// What a measurement prints: "begun" once its warm-up is over, "ended" when its time is, and then its figures as one
-// line of JSON. So the program that started it can look at the daemon's process at both moments.
+// Output of a measurement: "begun" after its warm-up, "ended" at the end of its time, and then its figures as one line
+// of JSON. The program that started it can look at the daemon's process at both moments.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ class Latencies {
  public:
   void add(std::chrono::nanoseconds time) { times_.push_back(time); }
   void add(const Latencies& others);
-  // In microseconds: p50, p99, min, max; and the count, alone where it is 0.
+  // Returns p50, p99, min and max in microseconds, and the count. If the count is 0, returns only the count.
   nlohmann::json summary() const;
 
  private:

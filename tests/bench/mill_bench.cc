@@ -1,4 +1,4 @@
-// Commands a second on one core: read, checked with machine and time, and drawn. Compare the figures of one run.
+// Commands per second on one CPU core: read, checked with machine and time, and drawn. Compare only figures of one run.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCommands = 150'000;
 
-// As CAM programs write a relief: three axes a command, a lift now and then.
+// Returns a relief as CAM programs write it: three axes per command, and an occasional lift.
 const std::string& job() {
   static const std::string text = [] {
     std::string made = ";;^IN;\n!MC1;\nV10.0;^PA;\n";
@@ -59,7 +59,7 @@ void CheckWithMachineAndTime(benchmark::State& state) {
 }
 BENCHMARK(CheckWithMachineAndTime)->Unit(benchmark::kMillisecond);
 
-// Checked and drawn; what drawing costs is the difference to the check above.
+// Checks and draws a job. The difference to the check above is the cost of drawing.
 void Preview(benchmark::State& state) {
   const Profile profile = test_profile();
   for (auto _ : state) {

@@ -1,5 +1,5 @@
-// Jobs of 150,000 commands through the sender at 9600 baud, in virtual time: what that costs the host, how well the
-// progress is known, and what a window costs. It prints tables; compare the figures of one run.
+// Jobs of 150,000 commands through the sender at 9600 baud, in virtual time: the cost for the host, the precision of
+// the progress, and the cost of a window. Prints tables; compare only figures of one run.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -25,7 +25,7 @@ struct Job {
   std::string (*text)(int commands);
 };
 
-// As in mill_bench.cc: 2 mm a command.
+// Returns a relief as in mill_bench.cc, with 2 mm per command.
 std::string relief(int commands) {
   std::string job = prologue() + "!MC0;V10;\n";
   for (int index = 0; index < commands; ++index) {
@@ -38,7 +38,7 @@ std::string relief(int commands) {
 constexpr Job kRelief{"relief, 2 mm", relief}, kUniform{"uniform, 0.2 mm", uniform_vectors},
     kBursts{"bursts, 0.08 mm", bursts_of_vectors};
 
-// A mill, and the profile by which it is fed.
+// Pair of a mill and the profile that the sender uses for it.
 struct Pair {
   std::string_view name;
   Profile profile;
@@ -68,7 +68,7 @@ double allocated_mib() {
   return static_cast<double>(info.uordblks + info.hblkhd) / (1 << 20);
 }
 
-// A line at whose end nothing is simulated: what is left is the sender.
+// Line without a simulated mill at its end, so that only the cost of the sender remains.
 class Drain : public FlowLink {
  public:
   void run_to(TimePoint now) {
@@ -112,10 +112,10 @@ void cost(const Job& job, Streaming streaming) {
              (ready - planned) * 1e3, all, all / kCommands * 1e6, most - memory);
 }
 
-// Of what the progress says at every minute.
+// Statistics of the progress at every minute: width of its range, and distance of its middle from the truth.
 struct Width {
   int minutes = 0, outside = 0;
-  double most = 0, sum = 0, off_most = 0, off_sum = 0;  // bytes; off: of the middle from the truth
+  double most = 0, sum = 0, off_most = 0, off_sum = 0;  // bytes; off: distance of the middle from the truth
 
   void take(const SendProgress& progress, std::uint64_t truth) {
     ++minutes;

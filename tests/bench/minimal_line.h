@@ -1,4 +1,4 @@
-// A controller's line in the smallest gateway: a queue, one exchange in flight, no time limit, no judgement.
+// Controller's line in the minimal gateway: a queue, one exchange in flight, no time limit, no check of replies.
 #pragma once
 
 #include <array>
@@ -11,18 +11,19 @@
 
 namespace axisgate::bench {
 
-// Frozen, as minimal_server.cc says.
+// A MinimalLine sends command lines to a controller and passes on the replies. Its code is frozen: see
+// minimal_server.cc.
 class MinimalLine {
  public:
   using OnReply = std::function<void(const std::string& reply)>;
 
-  // Throws where the tty cannot be opened.
+  // Throws if the tty cannot be opened.
   explicit MinimalLine(const std::string& tty);
   ~MinimalLine();
   MinimalLine(const MinimalLine&) = delete;
   MinimalLine& operator=(const MinimalLine&) = delete;
 
-  // From any thread. `on_reply` is called on the line's own thread.
+  // Queues a line. Thread safe. `on_reply` is called on the thread of this MinimalLine.
   void ask(std::string line, OnReply on_reply);
 
  private:
@@ -38,7 +39,7 @@ class MinimalLine {
   boost::asio::io_context context_{1};
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_;
   boost::asio::posix::stream_descriptor tty_;
-  std::deque<Exchange> exchanges_;  // the first is in flight
+  std::deque<Exchange> exchanges_;  // the first exchange is in flight
   std::array<char, 256> buffer_;
   std::string received_;
   std::thread thread_;

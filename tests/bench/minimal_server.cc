@@ -1,7 +1,7 @@
-// axisgate-bench-server: the smallest gateway that there can be, by the same gRPC and Asio, with none of the daemon's
-// duties. What the daemon needs beyond it is what its duties cost.
+// axisgate-bench-server: a minimal gateway with the same gRPC and Asio as the daemon, but without the daemon's other
+// duties. The difference between the figures of both is the cost of these duties.
 //
-// It is frozen: figures of different days are comparable because of it. So it is neither improved nor corrected.
+// Its code is frozen, neither improved nor corrected, so that figures of different days stay comparable.
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 

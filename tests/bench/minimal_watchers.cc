@@ -5,7 +5,7 @@
 namespace axisgate::bench {
 namespace {
 
-// As large as the daemon's: a step of a path.
+// Returns an event of the same size as the daemon's: a step of a path.
 v1::WatchResponse event_now(std::uint64_t revision) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
@@ -53,7 +53,7 @@ class MinimalWatchers::Watcher final : public grpc::ServerWriteReactor<v1::Watch
   }
 
  private:
-  // No write is in flight.
+  // Starts the next write, or finishes a cancelled stream. No write may be in flight.
   void step() {
     if (!due_.empty() && !cancelled_) return StartWrite(due_.front().get());
     if (!cancelled_ || finished_) return;
@@ -63,7 +63,7 @@ class MinimalWatchers::Watcher final : public grpc::ServerWriteReactor<v1::Watch
 
   MinimalWatchers& all_;
   std::mutex mutex_;
-  std::deque<Event> due_;  // the first is in flight
+  std::deque<Event> due_;  // the first event is in flight
   bool cancelled_ = false, finished_ = false;
 };
 

@@ -1,4 +1,4 @@
-// EventService.Watch of the smallest gateway: the same event to all streams, so many times a second.
+// EventService.Watch of the minimal gateway: sends the same event to all streams, at a constant rate.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace axisgate::bench {
 
-// Frozen, as minimal_server.cc says.
+// Service that publishes the events. Its code is frozen: see minimal_server.cc.
 class MinimalWatchers final : public v1::EventService::CallbackService {
  public:
   explicit MinimalWatchers(double events_per_second);

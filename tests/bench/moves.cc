@@ -1,5 +1,5 @@
-// Relative moves of axis 1, one after another, to and fro: how long the call takes that starts one, and how long after
-// its completion its outcome is known to a caller who watches the events.
+// Relative moves of axis 1, one after another, to and fro: the duration of the call that starts a move, and the time
+// from its completion until a watcher of the events receives its outcome.
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -14,7 +14,7 @@
 namespace axisgate::bench {
 namespace {
 
-using WallClock = std::chrono::system_clock;  // as Event.time
+using WallClock = std::chrono::system_clock;  // the clock of Event.time
 
 struct Options {
   std::string target;

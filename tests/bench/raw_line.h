@@ -1,4 +1,4 @@
-// A controller's line without a gateway: what a program does that has the line for itself, or believes so.
+// Controller's line without a gateway, as used by a program that has the line alone, or believes so.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,17 @@
 
 namespace axisgate::bench {
 
-// Not thread safe. Every function throws where the line fails.
+// A RawLine is a tty or a TCP connection to a controller. Not thread safe. All functions throw if the line fails.
 class RawLine {
  public:
   static RawLine open_tty(const std::string& path);
-  // "HOST:PORT", numeric, of a serial server's raw port. Waits half a second for a line, a tty waits for ever.
+  // Connects to the raw port of a serial server: "HOST:PORT", both numeric. ask() then waits half a second for a line;
+  // with a tty it waits without limit.
   static RawLine connect_tcp(const std::string& address);
 
-  // Sends a line, and waits for the next line that comes, without its end. Nothing: none came.
+  // Sends a line and returns the next received line, without its terminator. nullopt if none arrived in time.
   std::optional<std::string> ask(std::string_view line);
-  // What was received and not yet asked about.
+  // Discards all bytes received up to now.
   void discard_received();
 
  private:

@@ -17,7 +17,8 @@ Duration seconds_in(const std::string& text) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(std::stod(text)));
 }
 
-// `12.345678 #9 question "unix anna" > "?:V\r\n" +0.003125 < "V2.00.000\r\n" = data`
+// Parses `12.345678 #9 question "unix anna" > "?:V\r\n" +0.003125 < "V2.00.000\r\n" = data`. Empty if the line does not
+// begin with `line_begin`.
 std::optional<RecordedTimes> times_in(const std::string& line, std::string_view line_begin) {
   const auto written = line.find(fmt::format(" > \"{}", line_begin));
   if (line.starts_with('#') || written == std::string::npos) return {};

@@ -1,4 +1,4 @@
-// What was written to the line and when, as the daemon's recording has it, on this program's clock.
+// Times at which lines were written, from the daemon's recording, converted to the clock of this program.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -15,17 +15,18 @@
 
 namespace axisgate::bench {
 
-// When a call began and ended here, by monotonic_now(): the clock of recordings, which begin at an unknown time.
+// Beginning and end of a call in this program, by monotonic_now(). Recordings use the same clock, but begin at an
+// unknown time.
 struct CallTimes {
   TimePoint called, ended;
 };
 
-// When a line was written, and when the last byte of its reply was received, since the recording's beginning.
+// Times at which a line was written and the last byte of its reply was received, since the beginning of the recording.
 struct RecordedTimes {
   Duration written, replied;
 };
 
-// Follows the recording from now on.
+// A Recording follows the daemon's recording from its construction on.
 class Recording {
  public:
   explicit Recording(const std::shared_ptr<grpc::Channel>& channel);
@@ -33,7 +34,7 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  // Of all written lines that begin so.
+  // Returns the times of all written lines that begin with `line_begin`.
   std::vector<RecordedTimes> times_of(std::string_view line_begin) const;
 
  private:
@@ -47,8 +48,8 @@ class Recording {
   std::thread thread_;
 };
 
-// When the recording began, as precisely as it follows from calls of which each had one line written: that happened
-// after the call began, and the reply was received before it ended.
+// Beginning of the recording, computed from calls that each wrote one line: the line was written after the call began,
+// and the reply was received before the call ended.
 struct Beginning {
   TimePoint earliest, latest;
   TimePoint middle() const { return earliest + (latest - earliest) / 2; }

@@ -1,4 +1,5 @@
-// Stops while many calls of others wait or are refused: from each call to the first byte of its stop on the line.
+// Stops while many calls of other callers wait or are refused: the time from each call to the first byte of its stop on
+// the line.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -25,14 +26,14 @@ namespace {
 
 struct Options {
   std::string target;
-  std::string line = "?:O";  // equal questions share an exchange, but those for the outputs do not
+  std::string line = "?:O";  // equal questions share an exchange, except questions for the outputs
   int calls = 990;
   int connections = 20;
   int stops = 60;
   int pause_ms = 50;
 };
 
-// What nobody else asks, to find out when the recording began.
+// Question that no other caller asks, used to find the beginning of the recording.
 constexpr const char* kOwnQuestion = "?:AN";
 constexpr int kOwnQuestions = 20;
 constexpr auto kUntilLoaded = std::chrono::seconds(1);
@@ -42,7 +43,7 @@ class OtherCallers {
   explicit OtherCallers(const Options& options) {
     request_.set_device(kDevice);
     request_.add_lines(options.line);
-    request_.mutable_timeout()->set_seconds(600);  // longer than any call waits here
+    request_.mutable_timeout()->set_seconds(600);  // longer than any call waits in this program
     for (int i = 0; i < options.connections; ++i) {
       stubs_.push_back(v1::CommandService::NewStub(connect(options.target)));
     }
@@ -58,7 +59,7 @@ class OtherCallers {
   }
 
  private:
-  // One Execute that is repeated as soon as it ends, however it ends, for as long as the program runs.
+  // A Repeated is an Execute call that is made again as soon as it ends, whatever its result, while the program runs.
   class Repeated final : public grpc::ClientReadReactor<v1::ExecuteResponse> {
    public:
     Repeated(OtherCallers& all, v1::CommandService::Stub& stub) : all_(all), stub_(stub) { call(); }
@@ -110,7 +111,7 @@ std::vector<CallTimes> ask_own_questions(const std::string& target) {
   return calls;
 }
 
-// At instants that have nothing to do with the exchanges on the line.
+// Stops repeatedly, at random times that do not depend on the exchanges on the line.
 std::vector<CallTimes> stop_often(const Options& options) {
   const auto stub = v1::StageService::NewStub(connect(options.target));
   std::mt19937 random;
@@ -149,7 +150,7 @@ nlohmann::json figures_of(const std::vector<CallTimes>& stops, const Beginning& 
 void run(const Options& options) {
   const Recording recording(connect(options.target));
   const auto own_calls = ask_own_questions(options.target);
-  const OtherCallers& others = *new OtherCallers(options);  // they end with the program
+  const OtherCallers& others = *new OtherCallers(options);  // never deleted: they end with the program
   std::this_thread::sleep_for(kUntilLoaded);
   say_begun();
   const int ended_before = others.ended(), refused_before = others.refused();

@@ -1,4 +1,4 @@
-// Many streams of events or of states: how late each event is received, and whether one is lost.
+// Many streams of events or of states: the delay of each event, and the number of lost events.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -20,7 +20,7 @@
 namespace axisgate::bench {
 namespace {
 
-using WallClock = std::chrono::system_clock;  // as Event.time
+using WallClock = std::chrono::system_clock;  // the clock of Event.time
 using Seconds = std::chrono::duration<double>;
 
 struct Options {
@@ -33,14 +33,15 @@ struct Options {
 };
 
 constexpr std::chrono::milliseconds kUntilQuiet(500);
-constexpr std::int64_t kPulses = 30;  // 12 ms with the simulator's speeds
+constexpr std::int64_t kPulses = 30;  // 12 ms at the simulator's speeds
 
-// Connections share out the targets: a thousand streams acknowledge more than the daemon takes from one source.
+// Returns the target of a connection. The connections are divided among the targets, because a thousand streams send
+// more acknowledgements than the daemon accepts from one source.
 const std::string& target_of(const Options& options, int connection) {
   return options.targets[static_cast<std::size_t>(connection) % options.targets.size()];
 }
 
-// What the streams of a measurement share.
+// State shared by the streams of a measurement.
 struct Shared {
   explicit Shared(int count) : opened(count), ended(count) {}
   std::latch opened, ended;
@@ -96,7 +97,7 @@ class Events final : public Stream<v1::WatchResponse> {
   using Stream::Stream;
   std::uint64_t first() const { return first_; }
   std::uint64_t last() const { return last_; }
-  std::uint64_t left_out() const { return left_out_; }  // between the first and the last
+  std::uint64_t left_out() const { return left_out_; }  // missing events between the first and the last
   const Latencies& delays() const { return delays_; }
 
  private:
@@ -114,7 +115,7 @@ class Events final : public Stream<v1::WatchResponse> {
   Latencies delays_;
 };
 
-// To and fro, evenly, each giving four events: queued, running, the completion, the outcome.
+// Moves to and fro at equal intervals. Each move gives four events: queued, running, completion, outcome.
 void move_often(const Options& options) {
   const auto stage = v1::StageService::NewStub(connect(target_of(options, 0)));
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1) / options.moves_per_second);
@@ -127,7 +128,7 @@ void move_often(const Options& options) {
   }
 }
 
-// No more events come: until each stream has the newest, and no longer than a stream that has lost it deserves.
+// Waits until every stream has the newest event, at most 5 s: a stream may have lost it. No more events may follow.
 void await_newest(const std::vector<std::unique_ptr<Events>>& streams) {
   constexpr std::chrono::milliseconds kLongest(5000), kBetweenLooks(300);
   const auto until = Clock::now() + kLongest;
@@ -156,7 +157,7 @@ nlohmann::json figures_of(const std::vector<std::unique_ptr<Events>>& streams, b
   }
   for (const auto& stream : streams) {
     lost += stream->left_out();
-    // While events continue, some have received the newest and some have not.
+    // While events continue, some streams have the newest event and others do not yet.
     if (events_have_ended) lost += (stream->first() - first) + (last - stream->last());
   }
   auto figures = delays.summary();
@@ -179,7 +180,7 @@ void run(const Options& options, Open open) {
     streams.back()->begin();
   }
   shared.opened.wait();
-  std::this_thread::sleep_for(kUntilQuiet);  // what came before their opening was ended is under way to some of them
+  std::this_thread::sleep_for(kUntilQuiet);  // events from the time of opening are still in transit to some streams
   shared.measuring = true;
   say_begun();
   const auto begun = Clock::now();

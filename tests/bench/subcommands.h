@@ -1,4 +1,4 @@
-// The measurements of axisgate-bench, one or more subcommands a file.
+// Subcommands of axisgate-bench, its measurements. Each file defines one or more.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
-// Two pollers and one mover at the same controller, each asking for something else, whose answer is known: how many
-// replies are those of another. Through the daemon, or over one raw port that they share.
+// Two pollers and one mover at the same controller, each with a different question whose answer is known: the number of
+// replies that belong to another client. The clients use the daemon, or share one raw port.
 #include <fmt/format.h>
 
 #include <array>
@@ -27,12 +27,12 @@ struct Options {
   int count = 5000;
 };
 
-// One program at the controller.
+// A Client is one program that uses the controller.
 class Client {
  public:
   virtual ~Client() = default;
   virtual std::string ask(const std::string& line) = 0;
-  // A short move of axis 3: what the setting and the start were answered. Returns when it has ended.
+  // Makes a short move of axis 3, waits for its end, and returns the answers to the setting and to the start.
   virtual std::vector<std::string> move() = 0;
 };
 
@@ -48,7 +48,7 @@ class ClientOfDaemon final : public Client {
   std::unique_ptr<v1::CommandService::Stub> stub_;
 };
 
-// As careful as such a program can be: what came before its question is not its answer.
+// Client of the raw port, as careful as possible: it discards bytes received before its question.
 class ClientOfPort final : public Client {
  public:
   explicit ClientOfPort(const std::string& address) : line_(RawLine::connect_tcp(address)) {}
@@ -59,7 +59,7 @@ class ClientOfPort final : public Client {
   std::vector<std::string> move() override {
     std::vector<std::string> answers;
     for (const std::string& line : kMove) answers.push_back(ask(line));
-    constexpr auto kLonger = std::chrono::milliseconds(20);  // than the move takes: 11 ms
+    constexpr auto kLonger = std::chrono::milliseconds(20);  // longer than the move, which takes 11 ms
     std::this_thread::sleep_for(kLonger);
     return answers;
   }
@@ -96,7 +96,7 @@ class Measurement {
  private:
   static std::string question(int axis) { return fmt::format("?:D{}", axis); }
 
-  // Minimum speeds of their own; what the controller then says is learnt while nobody else asks.
+  // Sets a different minimum speed for each axis, and reads the expected answers before other clients ask.
   void give_each_axis_its_answer() {
     const auto alone = make_client(options_);
     for (int axis = 1; axis <= 3; ++axis) {
@@ -145,7 +145,7 @@ class Measurement {
   std::atomic<int> replies_ = 0, wrong_ = 0;
   std::atomic<bool> failed_ = false;
   std::mutex mutex_;
-  std::string first_;  // wrong reply
+  std::string first_;  // the first wrong reply
   std::string failure_;
 };
 

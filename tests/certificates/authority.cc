@@ -59,7 +59,7 @@ Authority::Certificate Authority::sign(const std::string& name, EVP_PKEY* key, X
   std::uint32_t serial = 0;
   RAND_bytes(reinterpret_cast<unsigned char*>(&serial), sizeof(serial));
   ASN1_INTEGER_set_uint64(X509_get_serialNumber(made.get()), serial);
-  // An hour ago: the clocks of two machines differ.
+  // Validity begins an hour ago because the clocks of two machines can differ.
   X509_gmtime_adj(X509_getm_notBefore(made.get()), -3600);
   X509_gmtime_adj(X509_getm_notAfter(made.get()), std::chrono::seconds(valid).count());
   X509_set_pubkey(made.get(), key);

@@ -1,4 +1,4 @@
-// Certificates for tests: an authority, and what it signs.
+// Test certificates: a certificate authority and the certificates that it signs.
 #pragma once
 
 #include <openssl/evp.h>
@@ -10,14 +10,15 @@
 
 namespace axisgate {
 
-// Throws std::runtime_error where OpenSSL or the disk does not do its part.
+// A certificate authority for tests. Throws std::runtime_error if OpenSSL or the disk fails.
 class Authority {
  public:
-  // Kept in FOLDER/NAME.crt and FOLDER/NAME.key, and found there again.
+  // Loads FOLDER/NAME.crt and FOLDER/NAME.key, or creates them if they do not exist.
   Authority(const std::string& folder, const std::string& name);
 
-  // Writes FOLDER/NAME.crt and FOLDER/NAME.key, or replaces them, each as a whole: for a daemon at localhost,
-  // 127.0.0.1 and 192.0.2.1, which is for documentation and tests (RFC 5737), or a caller of that name.
+  // Writes FOLDER/NAME.crt and FOLDER/NAME.key; each file is replaced as a whole. The certificate is valid for a daemon
+  // at localhost, 127.0.0.1 and 192.0.2.1 (an address for documentation and tests, RFC 5737), or for a caller called
+  // `name`.
   void issue(const std::string& name, std::chrono::hours valid = std::chrono::hours(90 * 24)) const;
 
  private:

@@ -1,6 +1,6 @@
-// Preloaded into a program (LD_PRELOAD), it shifts the wall clock. The file that AXISGATE_CLOCK_SHIFT names has the
-// shift in seconds, as 8 bytes of this machine, and can be changed while the program runs. Clocks that nobody sets
-// stay.
+// Library for LD_PRELOAD that shifts the wall clock of a program. The file named by AXISGATE_CLOCK_SHIFT contains the
+// shift in seconds, as 8 bytes in the byte order of this machine, and can be changed while the program runs. Other
+// clocks, such as the monotonic clock, are not shifted.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <linux/futex.h>
@@ -22,9 +22,9 @@ namespace {
 using Arguments = std::array<long, 6>;
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // in ns
-constexpr std::int64_t kLook = kSecond / 20;     // how soon a wait sees that the clock was set
+constexpr std::int64_t kLook = kSecond / 20;     // longest delay before a wait notices a new shift
 
-// A test without its file would test nothing.
+// Maps the file with the shift. Aborts without the file, because the test would then test nothing.
 const volatile std::int64_t* map_shift() {
   const char* const path = std::getenv("AXISGATE_CLOCK_SHIFT");
   const int file = path == nullptr ? -1 : ::open(path, O_RDONLY | O_CLOEXEC);
@@ -53,7 +53,7 @@ timespec real_time(clockid_t clock) {
 
 std::int64_t nanoseconds(const timespec& time) { return time.tv_sec * kSecond + time.tv_nsec; }
 
-// Until a time of the wall clock, also where that is set meanwhile.
+// Waits on a futex until a time of the wall clock, also if the clock is set during the wait.
 long wait_for_wall_time(Arguments with) {
   const std::int64_t end = nanoseconds(*reinterpret_cast<const timespec*>(with[3]));
   while (true) {
@@ -91,7 +91,7 @@ time_t time(time_t* where) noexcept {
   return now.tv_sec;
 }
 
-// gRPC's threads wait for times of the wall clock by this call.
+// Intercepts futex waits: gRPC's threads wait for times of the wall clock through this call.
 long syscall(long number, ...) noexcept {
   Arguments with{};
   std::va_list given;

@@ -57,14 +57,14 @@ std::string joined(const Texts& parts, std::string_view separator) {
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// A bar ends a cell, in code, too.
+// Returns the text as code. Escapes bars, because a bar ends a cell even inside code.
 std::string code(std::string_view text) {
   std::string escaped;
   for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);
   return '`' + escaped + '`';
 }
 
-// 1,000,000
+// Returns the number with separators: "1,000,000".
 std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
   const std::size_t first = number < 0 ? 1 : 0;
@@ -81,7 +81,7 @@ bool is_number(std::string_view text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// "C, 0 to 63": three numbers or more in a row by their ends.
+// Returns the choices as a list; three or more consecutive numbers become a range: "C, 0 to 63".
 std::string listed(const Texts& choices) {
   Texts parts;
   for (std::size_t i = 0; i < choices.size();) {
@@ -98,7 +98,7 @@ std::string listed(const Texts& choices) {
   return joined(parts, ", ");
 }
 
-// As most meanings do: "direction" does not, "motor: 0 excitation off, 1 on" does.
+// Reports whether the meaning names all choices: "motor: 0 excitation off, 1 on" does, "direction" does not.
 bool names_all(std::string_view meaning, const Texts& choices) {
   std::string words = " ";
   for (const char c : meaning) words += std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
@@ -110,7 +110,7 @@ bool names_all(std::string_view meaning, const Texts& choices) {
 bool has_other_units(const CommandRow& row) { return row.format.find("<u>") != std::string_view::npos; }
 
 std::string values(const CommandRow& row, const Parameter& parameter) {
-  // A unit such as "0.1 s" is itself an amount.
+  // A unit such as "0.1 s" contains a number, and is written as "times 0.1 s".
   const bool times = !parameter.unit.empty() && is_number(parameter.unit.substr(0, 1));
   const std::string unit = parameter.unit.empty() ? "" : fmt::format("{}{}", times ? " times " : " ", parameter.unit);
   switch (parameter.kind) {
@@ -134,7 +134,7 @@ std::string values(const CommandRow& row, const Parameter& parameter) {
 std::string parameters(const CommandRow& row) {
   Texts parts;
   for (const Parameter& parameter : row.parameters) {
-    // Rows share lists of parameters, of which some take only the first.
+    // Rows share lists of parameters, and some rows use only the first ones.
     if (row.format.find(fmt::format("<{}>", parameter.letter)) == std::string_view::npos) continue;
     const std::string given = values(row, parameter);
     parts.push_back(fmt::format("{} {}{}", code(parameter.letter), parameter.meaning,

@@ -1,5 +1,5 @@
-// device/shrc203/COMMANDS.md against the command table. With AXISGATE_WRITE_COMMANDS=1 in the environment it is
-// written.
+// Tests of device/shrc203/COMMANDS.md against the command table. With AXISGATE_WRITE_COMMANDS=1 in the environment, the
+// test writes the file.
 #include "tests/conformance/commands_page.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Where two texts part: a whole page of each would tell less.
+// Returns the first line in which two texts differ, which is more useful than both pages.
 std::string first_difference(const std::string& now, const std::string& wanted) {
   std::istringstream one(now), other(wanted);
   std::string stands, belongs;
@@ -84,7 +84,7 @@ TEST(CommandsPage, TypedCallsAreOfRowsOfTheTable) {
   }
 }
 
-// By the text of proto/, since this program runs where gRPC is not installed as well.
+// Reads the text of proto/, because this program also runs where gRPC is not installed.
 TEST(CommandsPage, TypedCallsExist) {
   std::set<std::string> methods;
   for (const auto& entry : std::filesystem::directory_iterator(paths::in_project("proto/axisgate/v1"))) {

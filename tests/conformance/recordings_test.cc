@@ -1,4 +1,4 @@
-// Every recording of a line, replayed: the core of today does what the gateway did then.
+// Replays every recording of a line, and expects that the present core does the same as the gateway did then.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct File {
 
 void PrintTo(const File& file, std::ostream* out) { *out << file.name; }
 
-// Every file of the folder, in the order of their names.
+// Returns every file of the folder, sorted by name.
 const std::vector<File>& all_recordings() {
   static const std::vector<File> files = [] {
     std::vector<File> found;
@@ -38,7 +38,7 @@ const std::vector<File>& all_recordings() {
   return files;
 }
 
-// GoogleTest takes letters, digits and underscores only.
+// Returns a name for the test: GoogleTest accepts only letters, digits and underscores.
 std::string test_name(const testing::TestParamInfo<File>& info) {
   std::string name = info.param.name.substr(0, info.param.name.find('.'));
   std::ranges::replace_if(
@@ -52,17 +52,17 @@ Recording parsed(const File& file) {
   return recording ? *std::move(recording) : Recording{};
 }
 
-// The first difference; line 0 where there is none.
+// Returns the first difference; its line is 0 if there is none.
 ReplayDifference first_difference(const Recording& recording) {
   const ReplayReport report = replay(recording);
   return report.differences.empty() ? ReplayDifference{} : report.differences.front();
 }
 
-// What an answer can be changed into that no command is answered by.
+// Text that is not an answer to any command.
 constexpr std::string_view kNoAnswer = "?!\r\n";
 
 class Recordings : public testing::TestWithParam<File> {};
-// Two of them show that a replay detects a difference.
+// Two changed recordings, to show that a replay detects a difference.
 class DoctoredRecordings : public testing::TestWithParam<File> {};
 
 std::vector<File> to_be_doctored() {
@@ -113,7 +113,7 @@ TEST_P(DoctoredRecordings, MissEveryExchangeThatIsTakenOut) {
     if (exchange && exchange->lane) exchanges.push_back(i);
   }
   ASSERT_GT(exchanges.size(), 2u);
-  // A recording may begin and end anywhere.
+  // The first and the last exchange are left out, because a recording may begin and end anywhere.
   for (std::size_t i = 1; i + 1 < exchanges.size(); ++i) {
     Recording doctored = recording;
     doctored.lines.erase(doctored.lines.begin() + static_cast<std::ptrdiff_t>(exchanges[i]));

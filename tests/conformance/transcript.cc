@@ -14,7 +14,7 @@
 namespace axisgate::shrc203::conformance {
 namespace {
 
-// What a line of the format cannot be; caught where its place is known.
+// Error in a line of a transcript; caught by code that knows its place.
 struct Mistake {
   std::string what;
 };
@@ -117,7 +117,7 @@ class EntryReader {
     }
   }
 
-  // Nothing but the fields binds a reply that the simulator cannot give: an R would do as well as a B.
+  // Only the fields check a reply that the simulator cannot give: otherwise R would pass as well as B.
   void read_fields() {
     const bool single_letter = entry_.reply == "R" || entry_.reply == "B";
     if (is_answer_word(entry_.reply) || (single_letter && !entry_.offline)) return;

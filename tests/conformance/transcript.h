@@ -1,4 +1,4 @@
-// The transcripts' format (README.md beside this file), read strictly.
+// Strict parser for the format of transcripts (README.md in this folder).
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 namespace axisgate::shrc203::conformance {
 
 struct Line {
-  int number;  // in its file, from 1
+  int number;  // line number in the file, from 1
   std::string text;
 };
 
-// The lines of one entry, comments left out.
+// Lines of one entry, without comments.
 using Block = std::vector<Line>;
 
 struct Exchange {
@@ -23,7 +23,7 @@ struct Exchange {
 };
 
 struct Entry {
-  std::string place;  // "moves.transcript:12", of its first line
+  std::string place;  // place of its first line: "moves.transcript:12"
   int section = 0;
   std::string row;
   std::string source;
@@ -38,12 +38,12 @@ struct Entry {
   std::vector<std::string> completions;
 };
 
-// OK, OK_D, NG, NG_I: no two of them are one byte apart.
+// Reports whether the reply is OK, OK_D, NG or NG_I. Each pair of these differs in more than one byte.
 bool is_answer_word(std::string_view reply);
 
 std::vector<Block> split_blocks(std::string_view text);
 
-// The entry, or what is wrong with it, beginning with file and line.
+// Returns the entry, or an error text that begins with file and line.
 tl::expected<Entry, std::string> parse_entry(std::string_view file, const Block& block);
 
 struct Transcripts {
@@ -53,10 +53,10 @@ struct Transcripts {
     Entry entry;
   };
   std::vector<Example> examples;
-  std::vector<std::string> mistakes;  // files and entries that cannot be read
+  std::vector<std::string> mistakes;  // error texts of files and entries that cannot be read
 };
 
-// Every *.transcript of the project, in the order of the files' names. Read once.
+// Returns every *.transcript of the project, sorted by file name. The files are read only once.
 const Transcripts& all_transcripts();
 
 }  // namespace axisgate::shrc203::conformance

@@ -1,4 +1,4 @@
-// The format's own rules, so that a slip in a transcript is an error and never a check that does not happen.
+// Tests of the format's rules, so that a typing mistake in a transcript is an error, not a skipped check.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Every example of the manual, and every row of the table.
+// Tests of every example in the manual, and of every row of the command table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace axisgate::shrc203::conformance {
 
-// How GoogleTest names an example that fails.
+// Prints an example for GoogleTest's messages.
 void PrintTo(const Transcripts::Example& example, std::ostream* out) { *out << example.entry.place; }
 
 namespace {
 
 using Example = Transcripts::Example;
 
-// "moves_line_3_67_M": GoogleTest takes letters, digits and underscores only.
+// Returns a name for the test, "moves_line_3_67_M": GoogleTest accepts only letters, digits and underscores.
 std::string test_name(const testing::TestParamInfo<Example>& info) {
   const Example& example = info.param;
   std::string name = example.file.substr(0, example.file.find('.')) + "_line_" +

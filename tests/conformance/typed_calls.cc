@@ -1,4 +1,4 @@
-// By hand: the typed call and the verb for each command that has one.
+// Typed calls and verbs for each command that has them, typed by hand.
 #include "tests/conformance/commands_page.h"
 
 namespace axisgate::shrc203::conformance {
@@ -18,7 +18,7 @@ constexpr std::string_view kRun = "StageService.RunPath";
 constexpr std::string_view kChangedOrScanned = "SettingService.ChangeSettings, StageService.Scan";
 
 constexpr TypedCall kTypedCalls[] = {
-    // What changes nothing.
+    // Questions.
     {"*IDN?", kTold, "status"},
     {"!:", kTold, "status"},
     {"!:S", kTold, "status"},

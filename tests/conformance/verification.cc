@@ -47,7 +47,7 @@ Complaint check_command(const Entry& entry, const CommandRow& row) {
   return {};
 }
 
-// The blanks between sign and digits fill a coordinate up (manual 4) Q:).
+// Removes the blanks that pad a coordinate between sign and digits (manual 4) Q:).
 std::string without_filling(std::string field) {
   if (field.starts_with('+') || field.starts_with('-')) std::erase(field, ' ');
   return field;
@@ -68,7 +68,7 @@ Complaint check_reply(const Entry& entry, const CommandRow& row, int axis_count)
 
 bool is_axis_number(std::string_view line) { return line == "1" || line == "2" || line == "3"; }
 
-// Everything from `first` on, one line behind the other.
+// Returns all lines from `first` on, each with a newline.
 std::string said_since(const SimulatorBench& bench, std::size_t first) {
   std::string text;
   for (std::size_t i = first; i < bench.said().size(); ++i) text += bench.said()[i].line + "\n";
@@ -102,7 +102,7 @@ Complaint check_by_table(const Entry& entry) {
   const auto options = options_of(entry);
   if (!options) return options.error().message;
   if (auto complaint = check_command(entry, *row)) return complaint;
-  // A question that names axes is answered for these alone, as by a controller that has no others.
+  // A question that names axes is answered only for them, as if the controller had no other axes.
   const auto controllable = *from_axis_setting(std::to_string(options->axis_setting));
   return check_reply(entry, *row, parse_command(entry.sent)->axes(controllable).count());
 }

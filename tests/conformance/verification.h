@@ -1,4 +1,4 @@
-// Whether an entry is true, in two halves that share no code: the gateway's table, and the simulator.
+// Checks of a transcript's entry, by two methods that share no code: the gateway's command table, and the simulator.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace axisgate::shrc203::conformance {
 
-using Complaint = std::optional<std::string>;  // nothing where the entry holds
+using Complaint = std::optional<std::string>;  // nullopt if the entry is correct
 
 Complaint check_by_table(const Entry& entry);
 
-// Nothing for an offline entry, whose state the simulator cannot be brought into.
+// Returns nullopt for an offline entry, because the simulator cannot reach its state.
 Complaint check_by_simulator(const Entry& entry);
 
 Complaint check(const Entry& entry);

@@ -1,4 +1,4 @@
-// A transcript binds its bytes: with any of them wrong, it is no longer true.
+// Tests that the checks depend on every byte of a transcript: with any wrong byte, the entry fails.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -9,7 +9,8 @@
 namespace axisgate::shrc203::conformance {
 namespace {
 
-// A typist's: a neighbour, the other case, the other sign, a lost or an added blank.
+// Returns likely typing mistakes for a byte: its successor, the other case, the other sign, a missing or an extra
+// blank.
 std::string likely_mistakes_for(char right) {
   const auto byte = static_cast<unsigned char>(right);
   if (std::isdigit(byte)) return {right == '9' ? '0' : static_cast<char>(right + 1), 'O'};
@@ -33,8 +34,8 @@ bool is_on_the_wire(std::string_view line) {
   return line.starts_with("> ") || line.starts_with("< ") || line.starts_with("after: ");
 }
 
-// Where the bytes of a line begin that the test vouches for. A source and a reason are words for people; a state is
-// often reached by more ways than one, so that of a setup only its reply counts.
+// Returns the first byte of a line whose change must be detected. Sources and reasons are texts for people. The same
+// state can often be reached by different setups, so only the reply of a setup counts.
 std::size_t first_bound_byte(std::string_view line) {
   if (line.starts_with("source: ") || line.starts_with("offline: ") || line.starts_with("device: ")) return line.size();
   if (line.starts_with("setup: ")) return line.rfind(" -> ") + 4;
@@ -71,7 +72,7 @@ TEST(Transcripts, OneWrongByteFails) {
   EXPECT_GT(count, 0);
 }
 
-// Offline, no simulator speaks for the reply; its bytes must be bound all the same.
+// The simulator does not check the reply of an offline entry, but wrong bytes must still be detected.
 TEST(Transcripts, OneMissingOrDoubledByteFails) {
   for (const auto& example : all_transcripts().examples) {
     for (std::size_t i = 0; i < example.entry.reply.size(); ++i) {

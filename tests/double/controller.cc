@@ -25,7 +25,7 @@ Controller::Controller(Profile profile, bool reversed, ByteLink& link, EventSink
       permission_(permission),
       wire_(link, *this) {}
 
-// A callback may have requested more.
+// Repeats until nothing is left to do, because a callback may have made new requests.
 void Controller::settle() {
   if (std::exchange(settling_, true)) return;
   while (wire_.pump(now_) || take_turn() || wind_on()) {
@@ -108,7 +108,8 @@ Controller::Live* Controller::find(MotionId id) {
   return found == live_.end() ? nullptr : &found->second;
 }
 
-// Nothing where the caller may not use the axis, or too many wait; `started` has the answer then.
+// Returns null if the caller may not use the axis, or too many motions wait; `started` has then been called with the
+// problem.
 Controller::Live* Controller::create(MotionKind kind, const RequestContext& context, OnStarted& started) {
   auto good = allowed(context, kAxis);
   if (good && live_.size() >= kWaitingMax) {

@@ -1,5 +1,5 @@
-// One rotor as callers see it: a stage controller with one axis, and nothing of the SHRC-203 in it. Its motions take
-// turns; what it cannot do it refuses.
+// Stage controller for one rotor, with one axis, independent of the SHRC-203. Its motions take turns; requests that a
+// rotor does not support are refused.
 #pragma once
 
 #include <deque>
@@ -21,11 +21,12 @@ using namespace stage;  // NOLINT(google-build-using-namespace)
 
 inline constexpr AxisSet kAxis = AxisSet::of(1);
 inline constexpr std::size_t kWaitingMax = 100;
-inline constexpr std::int64_t kJogSpeed = 1000;  // pulses/s, where the caller names none
+inline constexpr std::int64_t kJogSpeed = 1000;  // pulses/s, if the caller names no speed
 
 class Controller final : public StageController, private Wire::Listener {
  public:
-  // `reversed`: callers count the other way than the rotor. The others outlive the controller.
+  // `reversed`: callers count in the direction opposite to the rotor's. The referenced objects must outlive the
+  // controller.
   Controller(Profile profile, bool reversed, ByteLink& link, EventSink& events, Permission& permission);
 
   void link_up(TimePoint now) override;
@@ -59,7 +60,7 @@ class Controller final : public StageController, private Wire::Listener {
   std::optional<Motion> find_motion(MotionId id) const override;
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
-  int outstanding_answers() const override { return 0; }  // a late answer has an old sequence number
+  int outstanding_answers() const override { return 0; }  // a late answer is recognised by its old sequence number
   void number_motions_after(MotionId last) override { last_motion_ = last; }
   void wind_down(TimePoint now, OnWoundDown done) override;
 
@@ -69,7 +70,7 @@ class Controller final : public StageController, private Wire::Listener {
     int direction = 1;
     std::int64_t speed = kJogSpeed, sent = 0, fastest = 0;  // pulses/s
     bool ended = false;
-    std::optional<Problem> why;  // nothing: its caller wanted it
+    std::optional<Problem> why;  // reason of the end; nullopt: the caller ended it
     std::optional<TimePoint> stop_at;
   };
   struct Live {
@@ -78,16 +79,16 @@ class Controller final : public StageController, private Wire::Listener {
     OnStarted on_started;
     std::optional<MoveRequest> move;
     bool has_turn = false;
-    bool wrote = false;         // its start may have reached the rotor
-    bool in_doubt = false;      // it was not answered
-    bool found_before = false;  // the origin, when an origin return was written
-    std::string stopped_by;     // empty: nobody
+    bool wrote = false;         // the start command may have reached the rotor
+    bool in_doubt = false;      // the start command was not answered
+    bool found_before = false;  // the origin was already found when an origin return was written
+    std::string stopped_by;     // empty: not stopped
     std::optional<Jog> jog;
   };
   struct StopJob {
     std::vector<OnStopped> done;
     StopReport report;
-    std::optional<TimePoint> stands_by;  // since it was answered
+    std::optional<TimePoint> stands_by;  // time limit for the standstill, set when the stop is answered
   };
   using StopJobPtr = std::shared_ptr<StopJob>;
 
@@ -109,7 +110,7 @@ class Controller final : public StageController, private Wire::Listener {
   Live* create(MotionKind kind, const RequestContext& context, OnStarted& started);
   void emit(const Event& event) { events_.on_event(event, now_); }
 
-  // session.cc: the link, the readings, stops, the end
+  // session.cc: the link, readings, stops, the end
   std::optional<Problem> may_write(const Asked& asked) override;
   void wire_open() override;
   void wire_lost(const std::string& why) override;
@@ -149,26 +150,26 @@ class Controller final : public StageController, private Wire::Listener {
   void ask_start(Live& live, std::int32_t payload, std::function<void(const Answer&)> done);
 
   const Profile profile_;
-  const int sign_;  // of a caller's pulse in the rotor's
+  const int sign_;  // factor from a caller's pulses to the rotor's: 1 or -1
   EventSink& events_;
   Permission& permission_;
   Wire wire_;
   TimePoint now_{};
   bool settling_ = false;
   State state_;
-  std::string unit_;           // the serial number that has passed a handshake
-  bool origin_found_ = false;  // by the rotor itself
+  std::string unit_;           // serial number that has passed a handshake
+  bool origin_found_ = false;  // as the rotor reports it
   bool strange_before_ = false;
-  bool runaway_ = false;  // a jog ran when the line was lost
-  int looking_ = 0;       // status questions not yet answered
+  bool runaway_ = false;  // a jog was running when the line was lost
+  int looking_ = 0;       // number of unanswered status questions
   TimePoint looked_{};
-  std::map<MotionId, Live> live_;  // the first has its turn, or is next
+  std::map<MotionId, Live> live_;  // the first motion has its turn, or is next
   std::deque<Motion> ended_;
   MotionId last_motion_ = 0;
   std::list<StopJobPtr> stops_;
 
-  std::optional<Problem> ending_;  // the answer to all who come too late
-  bool last_stop_ = false;         // the end waits for motions no more
+  std::optional<Problem> ending_;  // answer to all later requests
+  bool last_stop_ = false;         // the end no longer waits for motions
   TimePoint ending_limit_{};
   OnWoundDown on_wound_down_;
   std::vector<MotionId> unfinished_;

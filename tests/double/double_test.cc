@@ -1,4 +1,4 @@
-// A stage controller that shares nothing with the SHRC-203, against its own simulation.
+// Tests of a stage controller that shares nothing with the SHRC-203, with its own simulation.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -187,7 +187,7 @@ TEST(Rotor, ALeaseIsAskedForBeforeAndAsTheBytesGo) {
   rig.move(10);
   EXPECT_EQ(rig.refusal(), Reason::lease_held);
   EXPECT_THAT(rig.controller.motions(), IsEmpty());
-  for (const int yes : {1, 2}) {  // at its turn, and as its bytes go
+  for (const int yes : {1, 2}) {  // refused at its turn, and just before its bytes are written
     rig.porter.refusing = false;
     rig.porter.answers_left = yes;
     const MotionId id = rig.move(10);

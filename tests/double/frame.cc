@@ -53,7 +53,8 @@ std::string hex(std::string_view bytes) {
 
 std::optional<Frame> FrameParser::feed(char byte) {
   bytes_ += byte;
-  // The sync byte may also be one of a payload: what does not add up may hold the beginning of a frame further on.
+  // A payload may also contain the sync byte, so bytes with a wrong checksum may contain the beginning of the real
+  // frame.
   if (bytes_.size() == kFrameBytes && sum(bytes_) != 0) bytes_.erase(0, 1);
   bytes_.erase(0, std::min(bytes_.find(kSync), bytes_.size()));
   if (bytes_.size() < kFrameBytes) return {};

@@ -1,4 +1,4 @@
-// Frames, typed by hand.
+// Tests of frames that are typed by hand.
 #include "tests/double/frame.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The gateway with a second kind of device: one line in the list of kinds, and nothing else of server/ knows of it.
+// Tests of the gateway with a second kind of device, which is known to server/ only by one line in the list of kinds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::string first_error(const Configured<Config>& config) {
   return config || config.error().empty() ? "" : to_string(config.error().front());
 }
 
-// Waits for a condition that a device's strand brings about.
+// Waits for a condition that a device's strand makes true.
 template <class Condition>
 bool comes_true(Condition condition) {
   const TimePoint limit = monotonic_now() + kPatience;
@@ -58,7 +58,7 @@ class RunningGateway {
   stage::State state() { return *device().newest_state().get().value; }
   Stage& device() { return *gateway_.find_stage("turn"); }
 
-  // What became of the motion that this posts; queued where it has no outcome.
+  // Starts a move and returns it with its outcome; its state is queued if it has no outcome.
   stage::Motion outcome_of_move(Quantity distance) {
     device().post([this, distance](stage::StageController& controller, TimePoint now) {
       controller.move({{{.axis = 1, .distance = distance, .profile = {}}}, false, {.who = "tester"}}, now,

@@ -1,4 +1,4 @@
-// A rotor that runs until it is stopped, and who stops it.
+// Tests of jogs of a rotor, and of the ways to end them.
 #include <gtest/gtest.h>
 
 #include "tests/double/rig.h"

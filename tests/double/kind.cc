@@ -41,7 +41,7 @@ class Rotor final : public stage::Kind {
 
   std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
     SimulatedRotor::Options chosen;
-    for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
+    for (const auto& [name, value] : options) (void)chosen.set(name, value);  // already checked
     return std::make_unique<SimulatedRotor>(chosen, line);
   }
 };

@@ -1,4 +1,4 @@
-// The rotor as a kind of device: what would be one line in server/kinds.cc.
+// Kind of device for the rotor. A real kind would be one line in server/kinds.cc.
 #pragma once
 
 #include "device/stage/kind.h"

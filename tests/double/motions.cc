@@ -1,4 +1,4 @@
-// A rotor's motions from their turn to their outcome.
+// Motions of a rotor, from their turn to their outcome.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace axisgate::rotor {
 namespace {
 
 constexpr Duration kJogStopRepeat = std::chrono::seconds(1), kJogLeasePoll = std::chrono::milliseconds(50);
-// A reading under way and a stop behind it, each of a whole time limit.
+// Longest time until a stop is answered: a reading in progress and then the stop, each with a full time limit.
 constexpr Duration kJogReaction = 2 * kReplyLimit;
 
 Problem refused(std::int32_t code) {
@@ -45,7 +45,7 @@ void Controller::expire_waiting() {
   }
 }
 
-// While a stop is under way nobody's turn comes.
+// Starts the next motion, if any. No motion gets its turn while a stop is in progress.
 bool Controller::take_turn() {
   if (live_.empty() || !stops_.empty() || state_.link != LinkState::up) return false;
   auto& [id, live] = *live_.begin();
@@ -110,7 +110,7 @@ Result<std::int64_t> Controller::plan_move(const MoveRequest& request) const {
   return target;
 }
 
-// The payload of its start, by the reading just taken.
+// Returns the payload of the start command, based on the reading just taken.
 Result<std::int32_t> Controller::plan_start(Live& live) const {
   AxisResult& result = live.motion.results[0];
   if (state_.axis(1).busy.value_or(true)) {
@@ -179,7 +179,8 @@ void Controller::end(MotionId id, MotionState outcome, std::optional<Problem> pr
   tell(refusal ? Result<Motion>(tl::unexpected(*live.motion.problem)) : Result<Motion>(live.motion));
 }
 
-// By the newest reading. The rotor is busy from its acceptance of a start on, so one that stands has ended.
+// Finds out from the newest reading whether the motion has ended. The rotor is busy as soon as it accepts a start, so a
+// rotor that is not busy has ended its motion.
 void Controller::judge() {
   if (live_.empty()) return;
   Live& live = live_.begin()->second;
@@ -191,7 +192,7 @@ void Controller::judge() {
 void Controller::judge_standing(const Live& live) {
   const MotionId id = live.motion.id;
   const bool by_move = live.move && state_.axis(1).position_pulses == live.motion.results[0].target_pulses;
-  // Where the start was not answered, an origin found before proves nothing.
+  // If the start was not answered, an origin that was found before proves nothing.
   const bool by_home = live.motion.kind == MotionKind::home && origin_found_ && !(live.in_doubt && live.found_before);
   if (by_home) {
     state_.axis(1).homed = true;
@@ -231,7 +232,7 @@ void Controller::keep_jogs() {
   }
 }
 
-// Ends the jog when it must, and stops it again where one stop was not enough.
+// Ends the jog if necessary, and repeats the stop if one stop was not enough.
 void Controller::keep_jog(Live& live) {
   Jog& jog = *live.jog;
   if (!jog.ended && !live.stopped_by.empty()) {
@@ -284,7 +285,8 @@ std::optional<Problem> Controller::must_end(const Live& live) {
                  .axis = 1};
 }
 
-// When at the latest a stop must be requested, by the newest reading.
+// Returns the latest time at which a stop must be requested, based on the newest reading; nullopt if the position or
+// the bound is unknown.
 std::optional<TimePoint> Controller::stop_before_bound(const Live& live, std::int64_t speed) const {
   const auto position = state_.axis(1).position_pulses;
   const auto bound = envelope(live.context).bound(1, live.jog->direction);

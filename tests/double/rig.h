@@ -1,4 +1,4 @@
-// A rotor's controller and a simulated rotor, joined by a line in virtual time on which frames can be lost.
+// Test rig with a rotor's controller and a simulated rotor, connected by a line in virtual time that can lose frames.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace axisgate::rotor {
 
-// Refuses when configured to, and records each request and each call.
+// A Porter refuses if the test has set it to, and records each request and each call.
 class Porter final : public Permission {
  public:
   Result<void> authorize(const Use& use, TimePoint) override {
@@ -45,7 +45,7 @@ class Porter final : public Permission {
   }
 
   bool refusing = false;
-  std::optional<int> answers_left;  // so many times yes, then no
+  std::optional<int> answers_left;  // number of requests to allow before all are refused
   int asked = 0, restarts = 0;
   Use last;
   std::vector<MotionId> begun, ended;
@@ -62,7 +62,7 @@ class Rig : public EventSink {
     run(std::chrono::milliseconds(100));
   }
 
-  // Both ends go on for so long, event by event.
+  // Runs both ends for this time, event by event.
   void run(Duration time) {
     const TimePoint until = now + time;
     for (int steps = 0;; ++steps) {
@@ -79,7 +79,7 @@ class Rig : public EventSink {
     step();
   }
 
-  // Until the motion has an outcome, a minute at most.
+  // Runs until the motion has an outcome, at most a minute, and returns its state.
   MotionState outcome(MotionId id) {
     for (int i = 0; i < 6000 && !is_outcome(motion(id).state); ++i) run(std::chrono::milliseconds(10));
     return motion(id).state;
@@ -109,7 +109,7 @@ class Rig : public EventSink {
     return all.empty() ? 0 : all.back().id;
   }
 
-  // How many frames with that opcode the controller has written.
+  // Returns how many frames with this opcode the controller has written.
   int written(Opcode opcode) const {
     return static_cast<int>(std::ranges::count_if(commands, [opcode](const std::string& bytes) {
       return static_cast<std::uint8_t>(bytes[1]) == static_cast<std::uint8_t>(opcode);
@@ -130,7 +130,7 @@ class Rig : public EventSink {
   std::vector<Result<Motion>> answers;
   std::vector<std::string> commands;
   std::vector<Duration> reopened;
-  std::optional<Opcode> lose_command, lose_answer;  // every frame of it
+  std::optional<Opcode> lose_command, lose_answer;  // opcodes of which every frame is lost
 
  private:
   static constexpr Duration kWay = std::chrono::milliseconds(2);

@@ -1,4 +1,4 @@
-// What a rotor's controller does beside its motions: the link, the readings, stops, and the end.
+// Parts of a rotor's controller besides its motions: the link, readings, stops, and the end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace {
 
 constexpr Duration kStopWriteLimit = std::chrono::seconds(1), kStandstillLimit = std::chrono::seconds(5);
 constexpr Duration kStopPoll = std::chrono::milliseconds(50);
-const Scale kScale{{2500, 0}, true};  // 0.0025 degrees
+const Scale kScale{{2500, 0}, true};  // 0.0025 degrees per pulse
 
 }  // namespace
 
-// The right may have ended since the start was queued.
+// Checks the right again, because it may have ended since the start was queued.
 std::optional<Problem> Controller::may_write(const Asked& asked) {
   if (asked.motion == 0) return {};
   Live* live = find(asked.motion);
@@ -122,7 +122,7 @@ void Controller::apply_status(std::int32_t payload) {
   keep_jogs();
 }
 
-// One reading may be of a motion that has just ended.
+// Reports foreign motion after two readings, because a single one may show a motion that has just ended.
 void Controller::tell_foreign_motion(bool busy) {
   const bool ours = !live_.empty() && live_.begin()->second.wrote;
   const bool strange = busy && !ours;
@@ -146,7 +146,7 @@ void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now
   });
 }
 
-// The rotor has one way to stop.
+// Stops the rotor like stop(): the rotor has only one stop command.
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
     permission_.stop_asked({context.who, context.lease, AxisSet::all(), 0}, {}, now);
@@ -178,7 +178,7 @@ void Controller::stop_rotor(AxisSet axes, bool emergency, const std::string& who
             now_);
 }
 
-// What was not written never will be.
+// Marks running motions as stopping, and ends the motions whose start was not yet written.
 void Controller::flush_motions(const std::string& who) {
   std::vector<MotionId> unsent;
   for (auto& [id, live] : live_) {
@@ -186,7 +186,7 @@ void Controller::flush_motions(const std::string& who) {
     if (live.stopped_by.empty()) live.stopped_by = who;
     if (live.motion.state != MotionState::running) continue;
     live.motion.state = MotionState::stopping;
-    wire_.withdraw(id);  // another speed of a jog would start it again
+    wire_.withdraw(id);  // a new speed would start the jog again
     emit(MotionChanged{live.motion});
   }
   for (const MotionId id : unsent) {
@@ -277,7 +277,7 @@ void Controller::wind_down(TimePoint now, OnWoundDown done) {
     if (profile_.at_exit == AtExit::stop) return begin_last_stop();
     for (auto& [id, live] : live_) {
       if (!live.jog || live.jog->ended) continue;
-      live.jog->ended = true;  // it never ends by itself
+      live.jog->ended = true;  // a jog never ends by itself
       live.jog->why = ending_;
       live.jog->stop_at = now;
     }

@@ -7,7 +7,7 @@
 namespace axisgate::rotor {
 namespace {
 
-// The bytes of one frame follow each other at once.
+// Pause after which an incomplete frame is discarded. The bytes of a frame arrive without gaps.
 constexpr Duration kFrameBreak = std::chrono::milliseconds(50);
 constexpr std::int64_t kPlaceMax = 500'000'000;
 constexpr std::int32_t kFirmware = 2;

@@ -1,5 +1,4 @@
-// A rotor that exists in this process only. It reads and writes frames with its own code, so that a slip in frame.cc
-// does not stay unseen.
+// Simulated rotor. It reads and writes frames with separate code, so that tests detect a fault in frame.cc.
 #pragma once
 
 #include <array>
@@ -15,10 +14,10 @@ class SimulatedRotor final : public stage::Simulation {
  public:
   struct Options {
     std::int64_t speed = 10'000;  // pulses/s of moves and origin returns
-    std::int64_t place = 5'000;   // where it stands when it is switched on, from its origin
+    std::int64_t place = 5'000;   // position at power-on, from the origin
     std::int64_t serial_number = 4711;
 
-    // invalid_request, naming what there is.
+    // Sets an option. Fails with invalid_request, which lists the options.
     Result<void> set(std::string_view name, std::string_view value);
   };
 
@@ -28,9 +27,10 @@ class SimulatedRotor final : public stage::Simulation {
   void link_down(TimePoint now, std::string_view why) override;
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
-  std::optional<TimePoint> next_deadline() const override { return {}; }  // it sends nothing by itself
+  std::optional<TimePoint> next_deadline() const override { return {}; }  // the rotor sends nothing by itself
 
-  // "fault silent": it obeys, and answers nothing, until "fault answering"; "position".
+  // Executes a command of the test: "position", or "fault silent", after which the rotor obeys but does not answer
+  // until "fault answering".
   Result<std::string> operate(std::string_view command, TimePoint now) override;
 
   std::int64_t position() const { return place_ - zero_; }
@@ -54,10 +54,10 @@ class SimulatedRotor final : public stage::Simulation {
   bool silent_ = false;
   bool origin_found_ = false;
   Running running_ = Running::none;
-  std::int64_t place_;  // from its origin
-  std::int64_t zero_;   // the place that it calls 0
+  std::int64_t place_;  // from the origin
+  std::int64_t zero_;   // place of coordinate 0
   std::int64_t target_ = 0, speed_ = 0;
-  TimePoint since_{};  // of the motion, or of its present speed
+  TimePoint since_{};  // beginning of the motion, or of its present speed
   std::int64_t from_ = 0;
 };
 

@@ -59,7 +59,7 @@ bool Wire::pump(TimePoint now) {
 
 void Wire::write(Waiting next, TimePoint now) {
   ++next.tries;
-  ++sequence_;  // another one for a repeat, too: an answer that comes late is nobody's
+  ++sequence_;  // a repeat gets a new number, too, so that a late answer is ignored
   const auto& asked = next.asked;
   const std::string bytes = encode({static_cast<std::uint8_t>(asked.opcode), sequence_, asked.payload});
   const std::uint64_t exchange = ++exchanges_;
@@ -82,7 +82,7 @@ void Wire::link_up(TimePoint) {
 
 void Wire::lose(const std::string& why, TimePoint now) {
   open_ = false;
-  std::vector<std::pair<Asked, bool>> abandoned;  // and whether it was written
+  std::vector<std::pair<Asked, bool>> abandoned;  // second: it was written
   if (auto lost = std::exchange(in_flight_, {})) {
     tell_end(*lost, Outcome::link_lost, "", now);
     abandoned.emplace_back(std::move(lost->what.asked), true);
@@ -141,7 +141,7 @@ void Wire::timed_out(TimePoint now) {
   const Opcode opcode = late.what.asked.opcode;
   const bool again = late.what.asked.repeatable();
   if (again && late.what.tries <= kRepeats) {
-    // Back into its lane: a stop that came meanwhile goes first.
+    // Put back into its lane, so that a stop that arrived in the meantime goes first.
     auto& queue = queues_[static_cast<std::size_t>(late.what.asked.lane)];
     return queue.push_front(std::move(late.what));
   }

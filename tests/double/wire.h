@@ -1,4 +1,4 @@
-// One exchange in flight: what waits for the line, the time limit of an answer, its repeats, and the line's loss.
+// Line to a rotor with one exchange in flight: queues, time limit of answers, repeats, and loss of the line.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ inline constexpr Duration kReplyLimit = std::chrono::milliseconds(300);
 inline constexpr int kRepeats = 3;
 inline constexpr Duration kReopenMin = std::chrono::milliseconds(250), kReopenMax = std::chrono::seconds(5);
 
-// What became of a question or command.
+// Result of a question or command.
 struct Answer {
   std::optional<std::int32_t> payload;
   bool written = false;
-  std::optional<Problem> problem;  // without a payload
+  std::optional<Problem> problem;  // present if there is no payload
 };
 
 struct Asked {
@@ -35,11 +35,11 @@ struct Asked {
   Lane lane = Lane::question;
   std::string who;
   TimePoint not_after{};
-  stage::MotionId motion = 0;  // whose it is; 0: none's
+  stage::MotionId motion = 0;  // motion that it belongs to; 0: none
   std::function<void(const Answer&)> done;
 
   bool question() const { return opcode <= Opcode::status; }
-  // Whatever may set the rotor going is written once.
+  // Reports whether it may be written again. A command that may start the rotor is written only once.
   bool repeatable() const { return question() || opcode == Opcode::stop; }
 };
 
@@ -48,7 +48,7 @@ class Wire {
   class Listener {
    public:
     virtual ~Listener() = default;
-    // The last look before the bytes of a motion go out; they do where nothing is returned.
+    // Called just before the bytes of a motion are written. They are written only if it returns nullopt.
     virtual std::optional<Problem> may_write(const Asked& asked) = 0;
     virtual void wire_open() = 0;
     virtual void wire_lost(const std::string& why) = 0;
@@ -57,15 +57,16 @@ class Wire {
 
   Wire(ByteLink& link, Listener& listener) : link_(link), listener_(listener) {}
 
-  // Each is answered once, from within a later call; only withdraw() and seal() leave none.
+  // Queues a question or command. It is answered once, from within a later call, unless withdraw() or seal() removes
+  // it.
   void ask(Asked asked, TimePoint now);
   void withdraw(stage::MotionId motion);
   void seal();
 
-  // Writes the next where nothing is in flight; whether anything happened.
+  // Writes the next one if nothing is in flight. Reports whether anything happened.
   bool pump(TimePoint now);
   void link_up(TimePoint now);
-  // The line was lost, or is no good: stops go on waiting, all else is answered.
+  // Handles a lost or unusable line: stops keep waiting, all other requests are answered.
   void lose(const std::string& why, TimePoint now);
   void receive(std::string_view bytes, TimePoint now);
   void advance(TimePoint now);

@@ -1,5 +1,5 @@
-// Whatever a client and gRPC send, in whatever pieces: what goes out is whole frames, calls end once, what waits stays
-// bounded, and after a fault nothing passes any more.
+// Fuzzer of the front's HTTP/2, for any bytes from client and gRPC in any pieces: only whole frames are sent, calls end
+// once, waiting data stays bounded, and nothing passes after a fault.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -23,7 +23,7 @@ using namespace axisgate::front;
 
 constexpr FrontLimits kLimits{.message_bytes = 3'000, .stop_bytes = 1'000, .held_bytes = 6'000};
 
-// What the fuzzer chose, taken from the front.
+// The fuzzer's input, consumed from its beginning.
 class Choices {
  public:
   explicit Choices(std::string_view bytes) : bytes_(bytes) {}
@@ -55,7 +55,7 @@ class FuzzAnswer final : public Answer {
   const std::shared_ptr<std::vector<Reply>> replies_;
 };
 
-// /f is forwarded, /s and /a answered, anything else refused.
+// Forwards /f, answers /s and /a, and refuses every other path.
 class FuzzDesk final : public Desk {
  public:
   Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
@@ -173,7 +173,7 @@ class World {
     return frame(FrameType::headers, flags | 4, stream, encode_without_table(headers));
   }
 
-  // A message, as long as it says.
+  // Returns a message whose length prefix is correct.
   static std::string body(Choices& choices) {
     const std::uint8_t flags = choices.byte() & 1, stream = choices.byte() % 32;
     std::string bytes = with_prefix(choices.text());

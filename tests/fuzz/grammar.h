@@ -1,4 +1,4 @@
-// A mutator that knows the instruction table: bytes at random hardly ever make a command.
+// Mutator that knows the instruction table; random bytes rarely form a command.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace axisgate::rml1 {
 
-// A job near `job`, of at most `longest` bytes; the same for the same seed.
+// Returns a variant of `job` of at most `longest` bytes. The same seed gives the same variant.
 std::string mutated(std::string job, std::size_t longest, std::uint32_t seed);
 
 }  // namespace axisgate::rml1

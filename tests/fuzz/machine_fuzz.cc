@@ -1,4 +1,5 @@
-// Whatever the job, the tool stays in the work area, its time is a time, and it can be drawn.
+// Fuzzer of parser and machine, for any job: the tool stays in the work area, the duration is valid, and the job can be
+// drawn.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -32,7 +33,8 @@ class Guard : public MoveListener {
   Strokes strokes;
 };
 
-// What is chosen for a job is always the same, and another for nearly every other job.
+// Random choices that depend on the job only: the same job always gives the same choices, nearly every other job gives
+// different ones.
 class Choice {
  public:
   explicit Choice(std::string_view job) : dice_(static_cast<std::uint32_t>(job.size() + 1)) {
@@ -88,7 +90,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(check.machine().box().held(summary.final) == summary.final);
   const bool known = options.origin.has_value();
   require(!to_svg(make_picture("job", {&check}, profile, options.stock, known, guard.strokes)).empty());
-  // More kinds than there are places in the code that report something.
+  // The limit exceeds the number of places in the code that report a diagnostic.
   require(check.diagnostics().kept().size() <= 64 * Diagnostics::kSame);
   return 0;
 }

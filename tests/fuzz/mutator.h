@@ -1,4 +1,4 @@
-// Half of the mutations are libFuzzer's own. Included by each target.
+// Mutator for each fuzz target. Half of the mutations are libFuzzer's own.
 #pragma once
 
 #include <algorithm>

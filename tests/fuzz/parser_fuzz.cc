@@ -1,4 +1,4 @@
-// Whatever the bytes and wherever they are cut, the parser reports the same.
+// Fuzzer of the parser: it reports the same for any bytes, however they are cut into pieces.
 #include <algorithm>
 #include <array>
 #include <string_view>

@@ -1,4 +1,4 @@
-// Each guard is removed in turn, and something must go wrong. One that is not missed is not needed, or not tested.
+// Removes each guard in turn; a test must then fail. A guard whose removal goes unnoticed is unnecessary or untested.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -58,7 +58,7 @@ struct Output {
   int status = 0;
 };
 
-// The row's tests in a process of their own, so that no crash is taken for a failure.
+// Runs the row's tests in a separate process, so that a crash does not count as a failure.
 Output run_tests_of(const Row& row, const std::string& option) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
   const auto command = fmt::format(
@@ -118,7 +118,7 @@ TEST(GuardTable, HasOneRowForEachGuard) {
 
 }  // namespace
 
-// Runs in a child of this program, too, which removes one guard for all its tests.
+// Runs the tests. A child of this program also calls it, with one guard removed for all tests.
 int run_tests(int count, char** words) {
   testing::InitGoogleTest(&count, words);
   for (int i = 1; i < count; ++i) {

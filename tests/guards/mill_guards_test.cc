@@ -1,4 +1,4 @@
-// Each guard of mill jobs is removed in turn, and the seeds of a mill on a bad line must show it.
+// Removes each guard of mill jobs in turn; the seeds of a mill on a bad line must then fail.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct MillRow {
 };
 void PrintTo(const MillRow& row, std::ostream* out) { *out << row.name; }
 
-// In the order of the enumeration.
+// Guards in the order of the enumeration.
 constexpr std::array kMillTable = {
     MillRow{MillGuard::window, "window", "paced: no more than the window is ahead of the slowest mill"},
     MillRow{MillGuard::window_fits_buffer, "window-fits-buffer", "... and no more than the mill's buffer takes"},

@@ -1,4 +1,4 @@
-// What shows that each guard is needed: seeds in which something goes wrong without it, or tests that fail.
+// Evidence that each guard is needed: seeds that violate something without it, or tests that fail.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace axisgate::guards {
 
-// Without the guard, one of `count` seeds from `first` on violates something within `minutes` of virtual time.
+// Range of seeds. Without the guard, at least one of `count` seeds from `first` on violates something within `minutes`
+// of virtual time.
 struct Seeds {
   std::uint64_t first = 0;
   int count = 0;
@@ -22,17 +23,18 @@ struct Row {
   Guard guard;
   std::string_view name;
   std::string_view what;
-  std::optional<Seeds> seeds;  // nothing: no seed can show it, or none does within reasonable time
-  std::string_view tests;      // gtest's filter; some of these fail without the guard. Used where there are no seeds
+  std::optional<Seeds> seeds;  // nullopt if no seed detects the removal within reasonable time
+  std::string_view
+      tests;  // gtest filter; at least one of these tests fails without the guard. Used if there are no seeds
 };
 
-// A row for each guard, in the order of the enumeration.
+// Returns one row for each guard, in the order of the enumeration.
 std::span<const Row> table();
 
-// Nothing for a name that no guard has.
+// Returns null if no guard has this name.
 const Row* row_named(std::string_view name);
 
-// Removes a guard for as long as it lives.
+// A Without removes one guard during its lifetime.
 class Without {
  public:
   explicit Without(Guard guard) { removed_guard = guard; }

@@ -29,7 +29,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place) {
 }
 
 bool FrameReader::feed(std::string_view bytes, const std::function<bool(const Frame&)>& on_frame) {
-  // Only a frame that came in pieces is copied.
+  // Copies bytes only if a frame arrived in several pieces.
   std::string joined;
   if (!rest_.empty()) {
     joined = std::move(rest_);

@@ -13,7 +13,8 @@ namespace axisgate::front {
 
 inline constexpr std::string_view kPreface = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 inline constexpr std::size_t kFrameHeaderBytes = 9;
-// What both sides may send without asking (6.5.2); the front lets neither ask for more, so that it can hold a frame.
+// Limits that apply without a setting (6.5.2). The front lets neither side raise the payload limit, so that it can
+// store one frame.
 inline constexpr std::size_t kFramePayloadMax = 16'384;
 inline constexpr std::int64_t kFirstWindow = 65'535;
 inline constexpr std::int64_t kWindowMax = 0x7fff'ffff;
@@ -42,7 +43,7 @@ enum class SettingId : std::uint16_t {
   max_header_list_size = 6,
 };
 
-// RFC 9113, 7.
+// Error codes (RFC 9113, 7).
 enum class ErrorCode : std::uint32_t {
   no_error = 0,
   protocol_error = 1,
@@ -52,25 +53,26 @@ enum class ErrorCode : std::uint32_t {
   enhance_your_calm = 11,
 };
 
-// One whole frame; its texts are the reader's and end with the next one.
+// One whole frame. Its texts belong to the reader and are valid until the next frame.
 struct Frame {
-  FrameType type{};  // may be one that is not named above
+  FrameType type{};  // may be a type that is not named above
   std::uint8_t flags = 0;
   std::uint32_t stream = 0;
   std::string_view payload;
-  std::string_view raw;  // with its header
+  std::string_view raw;  // including its header
 
   bool has(FrameFlag flag) const { return (flags & static_cast<std::uint8_t>(flag)) != 0; }
 };
 
-// Cuts a stream of bytes into frames. Not thread safe.
+// A FrameReader cuts a stream of bytes into frames. Not thread safe.
 class FrameReader {
  public:
-  // Calls `on_frame` with each frame that is whole now, until it returns false. False: it did, or a frame is too long.
+  // Calls `on_frame` with each complete frame until `on_frame` returns false. Returns false if it did, or if a frame is
+  // too long.
   bool feed(std::string_view bytes, const std::function<bool(const Frame&)>& on_frame);
 
   bool too_long() const { return too_long_; }
-  bool in_frame() const { return !rest_.empty(); }  // a part of one is there
+  bool in_frame() const { return !rest_.empty(); }  // part of a frame has been received
 
  private:
   std::string rest_;
@@ -85,13 +87,13 @@ std::string rst_stream(std::uint32_t stream, ErrorCode code);
 std::string window_update(std::uint32_t stream, std::uint32_t bytes);
 std::string goaway(std::uint32_t last_stream, ErrorCode code, std::string_view why);
 
-std::uint32_t number_at(std::string_view bytes, std::size_t place);  // 32 bits, the highest first
+std::uint32_t number_at(std::string_view bytes, std::size_t place);  // 32 bits, highest byte first
 
-// Of a SETTINGS payload; nothing where its length is wrong.
+// Parses a SETTINGS payload. nullopt if its length is invalid.
 std::optional<std::map<std::uint16_t, std::uint32_t>> settings_in(std::string_view payload);
 
-// The fragment of a HEADERS frame, or the data of a DATA frame, without padding and priority; nothing where they do not
-// fit.
+// Returns the fragment of a HEADERS frame, or the data of a DATA frame, without padding and priority. nullopt if
+// padding or priority does not fit the payload.
 std::optional<std::string_view> content_of(const Frame& frame);
 
 }  // namespace axisgate::front

@@ -7,9 +7,9 @@
 namespace axisgate::front {
 namespace {
 
-constexpr std::size_t kTableBytes = 4096;  // of both ends, where nobody says otherwise (RFC 9113, 6.5.2)
+constexpr std::size_t kTableBytes = 4096;  // default table size of both ends (RFC 9113, 6.5.2)
 
-// nghttp2 takes what is constant by pointers that are not.
+// Casts away const: nghttp2 takes constant data by non-const pointers.
 std::uint8_t* as_bytes(std::string_view text) {
   return reinterpret_cast<std::uint8_t*>(
       const_cast<char*>(text.data()));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
@@ -19,7 +19,7 @@ std::string_view as_text(const std::uint8_t* bytes, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes), size};
 }
 
-// RFC 7541, 5.1, with a prefix of 7 bits and no Huffman code.
+// Appends a string literal (RFC 7541, 5.1), with a prefix of 7 bits and no Huffman code.
 void append_text(std::string& block, std::string_view text) {
   constexpr std::size_t kPrefix = 127;
   std::size_t size = text.size();
@@ -86,7 +86,7 @@ std::string HeaderEncoder::encode(const Headers& headers) {
 std::string encode_without_table(const Headers& headers) {
   std::string block;
   for (const Header& header : headers) {
-    block.push_back('\0');  // a literal that is not indexed, with a new name (RFC 7541, 6.2.2)
+    block.push_back('\0');  // literal without indexing, new name (RFC 7541, 6.2.2)
     append_text(block, header.name);
     append_text(block, header.value);
   }

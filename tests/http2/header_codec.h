@@ -13,13 +13,13 @@
 
 namespace axisgate::front {
 
-// Each block must pass through, in order: both ends keep a table. Not thread safe.
+// Decodes header blocks. All blocks must be passed in order, because both ends keep a table. Not thread safe.
 class HeaderDecoder {
  public:
   HeaderDecoder();
 
-  // Nothing where the block is malformed, or holds more than `bytes_max` of names and values: the table is lost then,
-  // and so is the connection.
+  // Returns nullopt if the block is malformed or has more than `bytes_max` bytes of names and values. The table is then
+  // lost, and the connection with it.
   std::optional<Headers> decode(std::string_view block, std::size_t bytes_max);
 
  private:
@@ -42,7 +42,7 @@ class HeaderEncoder {
   std::unique_ptr<nghttp2_hd_deflater, Delete> deflater_;
 };
 
-// A block that changes no table, so that it may stand between those of another encoder.
+// Encodes a block that changes no table, so that it can be sent between blocks of another encoder.
 std::string encode_without_table(const Headers& headers);
 
 }  // namespace axisgate::front

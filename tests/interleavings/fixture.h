@@ -1,4 +1,4 @@
-// Tries every order for many questions, and reports how many there were.
+// Fixture that tries every order for many questions, and prints the numbers of orders and questions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,10 +31,10 @@ class Interleavings : public testing::Test {
     sets.erase(sets.begin());
     return sets;
   }
-  // One, two and three axes.
+  // Returns a set of one, of two and of three axes.
   static std::vector<Axes> counts() { return {Axes::of(1), Axes::of(1) | Axes::of(2), Axes::all()}; }
 
-  // Every order for one question; the first failure is reported.
+  // Tries every order for one question, and reports the first failure.
   void try_all(const Question& question) {
     ++questions_;
     Choices choices;
@@ -49,7 +49,7 @@ class Interleavings : public testing::Test {
     } while (choices.another());
   }
 
-  // Hands out each question there is about these rows and sets of controllable axes.
+  // Calls `take` with each possible question about the chosen rows and sets of controllable axes.
   static void each_question(const std::function<bool(const shrc203::CommandRow&)>& chosen,
                             const std::vector<Axes>& controllable_sets, const std::function<void(Question)>& take) {
     for (const shrc203::CommandRow& row : shrc203::command_table()) {

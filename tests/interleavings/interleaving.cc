@@ -19,7 +19,7 @@ using std::chrono::seconds;
 namespace {
 
 constexpr Duration kAnswersAfter = milliseconds(1);
-// A motion is reported READY no sooner.
+// Duration of the motion; READY is not reported earlier.
 constexpr Duration kMovesFor = kReadyOutdatedMax + milliseconds(50);
 constexpr Duration kNotLong = milliseconds(250);
 constexpr MotionId kFirstMotion = 1;
@@ -75,7 +75,7 @@ std::string Question::answer() const {
   return row->separation == Separation::all_axes ? std::to_string(value) : reply();
 }
 
-// Written down once more, and not asked of the line: the test would hold whatever the line does.
+// The rule is written here again instead of calling the line's code; otherwise the test would always pass.
 bool Question::waits() const {
   const auto range = bare_number_range(*row).value();
   const auto axes = moving.list();
@@ -126,7 +126,7 @@ std::string Interleaving::run() {
   return failure_;
 }
 
-// Until the question: nothing is chosen here.
+// Runs the part before the question, in which nothing is chosen.
 bool Interleaving::begin() {
   const bool up = run_until([this] { return controller_->state().link == LinkState::up; }, seconds(5));
   if (!up) wrong("the handshake did not pass");
@@ -178,7 +178,7 @@ void Interleaving::heard(std::size_t caller, const ExecuteEvent& event) {
   if (event.problem) one.problem = event.problem->reason;
 }
 
-// Whatever has not come yet comes now, unless its time has passed; then the axes stand.
+// Sends the axis numbers that are still outstanding, unless their time has passed, and makes the axes stationary.
 void Interleaving::end() {
   for (const int axis : outstanding_.list()) {
     run_for(kAnswersAfter);
@@ -217,7 +217,8 @@ void Interleaving::check() {
 void Interleaving::on_event(const Event& event, TimePoint) {
   if (const auto* entered = std::get_if<BarrierEntered>(&event)) wrong("a barrier: " + entered->why);
   if (const auto* line = std::get_if<UnexpectedLine>(&event)) wrong("unexpected: " + line->text);
-  // The state after leaving the memory switches is checked again.
+  // After the memory switches the gateway reconnects to check the state again, so a lost link is an error only in HOST
+  // mode.
   const auto* link = std::get_if<LinkChanged>(&event);
   if (link && link->link == LinkState::down && question_.row->needs.mode == Mode::host) {
     wrong("the link went down: " + link->why);

@@ -1,5 +1,5 @@
-// A device of a few lines that executes its commands, so that replies and axis numbers come in every order there is. A
-// question has two parts: what the answer says, and which axes have yet to report that their motion has ended.
+// Minimal device that executes commands, so that replies and axis numbers can arrive in every possible order. A
+// question has two parts: its answer, and the axes that have not yet reported the end of their motion.
 #pragma once
 
 #include <deque>
@@ -15,12 +15,12 @@
 
 namespace axisgate::simulation {
 
-// Goes through all decisions of something that can be run again and again: each run decides as the one before it, but
-// for the last decision of which something was left to choose.
+// Choices enumerates all decisions of a procedure that can be run repeatedly. Each run repeats the decisions of the
+// previous run, except the last decision that still had another option.
 class Choices {
  public:
-  std::size_t choose(std::size_t options);  // 0 to options - 1
-  bool another();                           // begins the next run; false when there is none
+  std::size_t choose(std::size_t options);  // returns 0 to options - 1
+  bool another();                           // begins the next run; returns false if there is none
 
  private:
   struct Decision {
@@ -30,42 +30,42 @@ class Choices {
   std::size_t next_ = 0;
 };
 
-// What there is before the lines come in some order.
+// A Question is the situation before the lines arrive in one of the orders.
 struct Question {
-  // When it is asked: while the axes move, and their motion ends before its time runs out or after; or `after_ready`
-  // later than a reading that reported them stationary.
+  // Time at which the question is asked: while the axes move, and their motion ends before or after the question's time
+  // limit; or `after_ready` after a reading that reported them stationary.
   enum class Moment { moving, moving_beyond_its_time, standing };
 
   const shrc203::CommandRow* row = nullptr;
-  int value = 0;  // what the device answers; of several axes, for the lowest
+  int value = 0;  // answer of the device; if it has several axes, the value for the lowest
   stage::AxisSet controllable, moving;
   Moment moment = Moment::moving;
   Duration after_ready{};
-  bool by_execute = false;  // the motion is a caller's own line, so that more motions may follow in it
-  bool shared = false;      // two callers ask at once while the line is taken, so that one exchange answers both
+  bool by_execute = false;  // the motion comes from a caller's Execute, so that more motions may follow in it
+  bool shared = false;      // two callers ask while the line is occupied, so that one exchange answers both
 
-  std::vector<std::string> lines() const;  // of Execute
+  std::vector<std::string> lines() const;  // lines for Execute
   std::string on_the_wire() const;
-  std::string reply() const;   // the device's line
-  std::string answer() const;  // the caller's
-  // Whether the table lets it wait until no axis number can come that could be its answer.
+  std::string reply() const;   // line that the device sends
+  std::string answer() const;  // answer that the caller receives
+  // Reports whether the question must wait until no axis number can arrive that looks like its answer.
   bool waits() const;
   std::string description() const;
 };
 
-// The values that tell something: 1, 2 and 3 where the row can answer them, and one that is no axis number.
+// Returns the values worth testing: 1, 2 and 3 if the row can answer them, and one value that is no axis number.
 std::vector<int> values_of(const shrc203::CommandRow& row);
 
-// One run: a connect, a motion, the question, and all axis numbers, in the order that is chosen.
+// An Interleaving is one run: connection, motion, question, and all axis numbers, in the chosen order.
 class Interleaving : public ByteLink, public stage::EventSink {
  public:
   Interleaving(const Question& question, Choices& choices);
   ~Interleaving() override;
 
-  // What was wrong; empty when nothing was.
+  // Runs it and returns the first error; empty if there was none.
   std::string run();
-  // The lines as they came in since the question, behind "asked"; axis numbers by themselves, and with a "+" what came
-  // in one piece with the line before it.
+  // Returns the received lines in order, beginning with "asked" for the question. Axis numbers appear as numbers; "+"
+  // marks a line that arrived in one piece with the line before it.
   const std::string& order() const { return order_; }
 
  private:
@@ -90,7 +90,7 @@ class Interleaving : public ByteLink, public stage::EventSink {
   void wrong(const std::string& what);
 
   void step(TimePoint limit);
-  // Until `done` holds, or something is wrong; false when `limit` passed first.
+  // Runs until `done` returns true, an error occurs, or `limit` has passed. Returns the result of `done`.
   template <class Done>
   bool run_until(const Done& done, Duration limit) {
     const TimePoint end = now_ + limit;
@@ -113,13 +113,13 @@ class Interleaving : public ByteLink, public stage::EventSink {
   std::unique_ptr<shrc203::Controller> controller_;
   std::deque<Reply> replies_;
   std::string partial_, line_before_ = "L:E";
-  bool started_ = false, busy_ = false, away_ = false, closed_ = false;  // what the device does, and its line
-  bool asked_ = false, over_ = false;                                    // the question
+  bool started_ = false, busy_ = false, away_ = false, closed_ = false;  // state of the device and of its line
+  bool asked_ = false, over_ = false;                                    // state of the question
   int readings_since_asked_ = 0;
   stage::AxisSet outstanding_;
   std::optional<TimePoint> ready_seen_, asked_at_, written_at_;
   std::optional<stage::Motion> outcome_;
-  std::map<int, int> told_, seen_;  // by axis: numbers that the device has sent, and that the gateway has counted
+  std::map<int, int> told_, seen_;  // for each axis: numbers sent by the device, and numbers counted by the gateway
   struct Caller {
     std::vector<std::string> answers;
     std::optional<Reason> problem;

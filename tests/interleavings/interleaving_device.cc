@@ -1,4 +1,4 @@
-// The device's half of one interleaving, and the time that passes on the line.
+// Device side of an Interleaving, and the passing of time on the line.
 #include <algorithm>
 #include <utility>
 
@@ -15,7 +15,8 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr Duration kAnswersAfter = milliseconds(1);
-// One reading is on its way when the question is asked; with the second one the axes stand.
+// Number of readings after the question that still report BUSY. One reading is in flight when the question is asked;
+// the second one reports the axes stationary.
 constexpr int kBusyReadings = 1;
 
 const std::map<std::string_view, std::string_view> kWholeAnswers = {
@@ -33,7 +34,7 @@ const std::map<std::string_view, std::string_view> kWholeAnswers = {
 const std::map<std::string_view, std::string_view> kAnswersOfEachAxis = {
     {"?:P", "10"}, {"?:D", "S1000F10000R100"}, {"?:B", "S1000F10000R100"}, {"?:C", "1"}};
 
-// The same few lines are requested in every run.
+// Returns the row of a command line, from a cache, because every run uses the same few lines.
 const CommandRow* row_of(const std::string& line) {
   static std::map<std::string, const CommandRow*> known;
   const auto [entry, news] = known.try_emplace(line, nullptr);
@@ -55,7 +56,7 @@ void Interleaving::write(std::string_view bytes) {
   }
 }
 
-// The state after leaving the memory switches is checked again.
+// After the memory switches the gateway reconnects to check the state again, so this is an error only in HOST mode.
 void Interleaving::reopen(Duration) {
   closed_ = true;
   if (question_.row->needs.mode == Mode::host) wrong("the line was given up");
@@ -117,7 +118,7 @@ std::string Interleaving::answer_to(const std::string& line) {
   return "NG";
 }
 
-// A number comes while its axis moves, and for a little after READY has been read.
+// Reports whether an axis number can still arrive: while its axis moves, and for a short time after READY was read.
 bool Interleaving::may_complete() const {
   return !closed_ && (!ready_seen_ || now_ <= *ready_seen_ + kCompletionAfterReadyMax);
 }
@@ -137,8 +138,8 @@ std::string Interleaving::number_of(int axis) {
   return number;
 }
 
-// Before each answer, in pieces of their own, any of the numbers may come. Behind the question's and that of the !:S
-// which closes it, some may come before the gateway can have written another line.
+// Delivers a reply. Before each reply, any axis numbers may arrive, in separate pieces. After the reply to the
+// question, and after that to the closing !:S, axis numbers may arrive before the gateway can write another line.
 void Interleaving::deliver(const Reply& reply) {
   if (!asked_) return controller_->receive(reply.text + "\r\n", now_);
   while (const auto axis = chosen_axis()) controller_->receive(number_of(*axis) + "\r\n", now_);

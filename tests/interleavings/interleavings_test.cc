@@ -1,7 +1,7 @@
-// A number that comes by itself, a notice, looks like some answers. Whatever the order in which an answer and the
-// notices come, the caller gets the device's answer, and each number is counted once: for every row of the command
-// table whose answer can be a bare number, for every set of axes whose numbers are yet to come, and for every value
-// that means something. Nothing is drawn: each order is tried.
+// Tests of answers that look like a notice with an axis number. In every order of an answer and the notices, the caller
+// must receive the device's answer, and each number must be counted once. The tests cover every row of the command
+// table whose answer can be a bare number, every set of axes with outstanding numbers, and every value worth testing.
+// Nothing is random: each order is tried.
 #include <gtest/gtest.h>
 
 #include "tests/interleavings/fixture.h"
@@ -12,7 +12,7 @@ namespace {
 using namespace shrc203;
 using Moment = Question::Moment;
 
-// None of them is left to the grammar, which takes a notice for an answer.
+// No such row may rely on the grammar, which would accept a notice as an answer.
 TEST_F(Interleavings, EachSuchRowIsKeptApart) {
   for (const CommandRow& row : command_table()) {
     if (!bare_number_range(row)) continue;
@@ -21,12 +21,12 @@ TEST_F(Interleavings, EachSuchRowIsKeptApart) {
   }
 }
 
-// With all sets of controllable axes: which the one or the two are matters where a row answers 0 and 1 only.
+// Uses all sets of controllable axes, because for rows that answer only 0 and 1 it matters which axes these are.
 TEST_F(Interleavings, WhileTheAxesMove) {
   each_question(every_row, subsets(AxisSet::all()), [this](Question question) { try_all(question); });
 }
 
-// More motions may follow in the same lines, and their numbers: no row is closed by an !:S then.
+// More motions and their axis numbers may follow in the same transaction, so no row can be closed by !:S.
 TEST_F(Interleavings, WhileACallersOwnMotionRuns) {
   each_question(closed_rows, subsets(AxisSet::all()), [this](Question question) {
     question.by_execute = true;
@@ -34,11 +34,13 @@ TEST_F(Interleavings, WhileACallersOwnMotionRuns) {
   });
 }
 
-// What waits is refused, never sent, and costs no number. What does not wait is answered as above.
+// A question that waits is refused without being sent, and no axis number is lost. Other questions are answered as
+// above.
 TEST_F(Interleavings, WhileTheAxesMoveForLongerThanTheQuestionMayWait) {
   each_question(rows_of_host, subsets(AxisSet::all()), [this](Question question) {
     question.moment = Moment::moving_beyond_its_time;
-    const bool first = question.value == values_of(*question.row).front();  // it is not answered: one is enough
+    const bool first =
+        question.value == values_of(*question.row).front();  // the question is not answered, so one value is enough
     if (question.waits() && first) try_all(question);
   });
 }

@@ -1,4 +1,4 @@
-// Orders of an answer and axis numbers in which a number was not counted once.
+// Tests of orders of an answer and axis numbers in which a number was once not counted exactly once.
 #include <gtest/gtest.h>
 
 #include "device/shrc203/limits.h"
@@ -23,15 +23,15 @@ class InterleavingsOnceWrong : public Interleavings {
   }
 };
 
-// Both callers share the exchange in which the number comes beside the answer, and each of them deduces it.
+// Both callers share the exchange in which the number arrives with the answer, and both deduce the number.
 TEST_F(InterleavingsOnceWrong, ANumberIsCountedForEachCallerOfASharedExchange) {
   Question question = question_of("?:O", AxisSet::of(1), 1);
   question.shared = true;
   try_all(question);
 }
 
-// The question is asked again because a number came beside its answer, and by then no number is possible any more: the
-// answer is certain, and what came with the one before is forgotten.
+// The question is repeated because a number arrived with its answer. At the second answer no number is possible any
+// longer, so the answer is certain, and the number with the first answer was forgotten.
 TEST_F(InterleavingsOnceWrong, ANumberIsForgottenWhenTheLastAnswerIsCertain) {
   Question question = question_of("?:O", AxisSet::of(1) | AxisSet::of(2), 1);
   question.moment = Moment::standing;
@@ -39,7 +39,8 @@ TEST_F(InterleavingsOnceWrong, ANumberIsForgottenWhenTheLastAnswerIsCertain) {
   try_all(question);
 }
 
-// The same in every order, of two axes at most: with three there are 100,000, which take their time.
+// Tries every order with two callers and at most two moving axes: with three axes there are 100,000 orders, which take
+// too long.
 TEST_F(InterleavingsOnceWrong, TwoCallersAtOnce) {
   each_question(closed_rows, subsets(AxisSet::all()), [this](Question question) {
     question.shared = true;
@@ -48,7 +49,7 @@ TEST_F(InterleavingsOnceWrong, TwoCallersAtOnce) {
 }
 
 TEST_F(InterleavingsOnceWrong, JustBeforeNoNumberCanComeAnyMore) {
-  // From where two answers that agree still come in time, to where the first of them does not.
+  // 5 ms before: two equal answers still arrive in time. 2 ms before: not even the first one does.
   for (const int before : {5, 2}) {
     each_question(closed_rows, counts(), [&](Question question) {
       question.moment = Moment::standing;

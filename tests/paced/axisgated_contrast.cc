@@ -1,5 +1,5 @@
-// axisgated-contrast: the daemon, but a path's refills wait their turn among everybody's questions. It shows what their
-// going first is needed for, and is for nothing else.
+// axisgated-contrast: the daemon, except that a path's refills wait their turn among all questions. The program shows
+// why refills need priority, and has no other use.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// axisgate-paced-load: a path over a real line while sixteen clients ask for the status without a pause, and sixteen
-// more ask a question of their own each. Prints what came of it, for tests/integration/paced_path_test.py.
+// axisgate-paced-load: a path over a real line while sixteen clients request the status without a pause, and sixteen
+// more each repeat a different question. Prints the result for tests/integration/paced_path_test.py.
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 
@@ -25,14 +25,14 @@ namespace {
 
 constexpr const char* kDevice = "devices/stage";
 
-// A connection of its own, as another program on the machine would have.
+// Opens a separate connection, like another program on the machine.
 std::shared_ptr<grpc::Channel> connect(const std::string& target) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
 }
 
-// Clients of one kind, each on a thread of its own.
+// Clients of one kind, each on its own thread.
 class Clients {
  public:
   using Channel = std::shared_ptr<grpc::Channel>;

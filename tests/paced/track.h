@@ -1,4 +1,4 @@
-// The path of the proofs that a line feeds, and what is asked meanwhile: the same in virtual time and over a pty.
+// Path and questions of the paced-path tests, the same in virtual time and over a pty.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@ namespace axisgate::paced {
 
 inline constexpr int kCallers = 16;
 
-// One for each caller, because equal questions that wait share an exchange.
+// A different question for each caller, because equal questions that wait share an exchange.
 inline constexpr std::array<std::string_view, kCallers> kOwnQuestions = {
     "*IDN?", "?:D",  "Q:",  "Q:S", "SRQ:", "!:",  "!:S",  "?:V",
     "?:MP",  "?:AP", "?:M", "?:A", "?:KP", "?:K", "?:EP", "?:SN"};
 
-// Straight segments of axes 1 and 2, to and fro: 3 and 4 units long, the line 5. Every twentieth comes back on another
-// way, so that the end is none of the places in between, and yet near.
+// Straight segments of axes 1 and 2, back and forth: 3 and 4 units long, 5 along the line. Every twentieth segment
+// returns by a different displacement, so that the path ends near the places in between but at none of them.
 struct Track {
   static constexpr std::int64_t kSpeed = 20'000;  // pulses/s
   std::chrono::milliseconds each;

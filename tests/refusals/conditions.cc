@@ -14,12 +14,13 @@ bool in_host(const Sentence& one) {
   return one.where != Where::program && one.where != Where::editing && one.where != Where::switches;
 }
 
-// By somebody at the front panel: ?:CMD must not show that it was a line, and ?:CMD reports the last one.
+// Sends a line to the simulator as if a person had acted at the front panel. Q:SPC follows it, because ?:CMD reports
+// the last line and must not show this one.
 void told_by_another(Device& device, TimePoint now, const std::string& line) {
   device.receive(line + "\r\nQ:SPC\r\n", now);
 }
 
-// Long: H: goes to the mechanical origin, 100,000 pulses away (59)).
+// Makes H: last long: the mechanical origin is 100,000 pulses away (59)).
 void slow_origin_return(simulation::Setup& setup) {
   for (auto& axis : setup.options.axes) {
     axis.origin_minimum_speed = 100;
@@ -50,7 +51,8 @@ Condition program_busy() {
           .strikes_early = false};
 }
 
-// It is entered while stationary, and accepts no motion command: the moving axis was started at the front panel.
+// Program edit mode is entered while stationary and accepts no motion command, so the moving axis was started at the
+// front panel.
 Condition editing_busy() {
   return {.name = "Busy, in program edit mode",
           .manual = "\"In the case of Busy, it will be NG\": 112) to 116). Nothing there shows which axes move (111))",
@@ -82,7 +84,7 @@ Condition error(std::string what, AxisError error, std::string told) {
 std::vector<Case> ordinary(const std::function<bool(const Sentence&)>& concerned) {
   std::vector<Case> cases;
   for (const Sentence& one : sentences()) {
-    // A stop is judged by what became of the axes, and JD: belongs to a jog that runs.
+    // These commands are tested separately: a stop succeeds if the axes stop, and JD: needs a running jog.
     const bool apart = one.command == "L:" || one.command == "L:E" || one.command == "JD:";
     if (!apart && concerned(one)) cases.push_back({&one, one.line, one.whole(), one.way_there(), {}});
   }

@@ -1,4 +1,4 @@
-// What the manual says of NG, command by command: typed by hand from its pages, not from the command table.
+// The manual's sentences about NG for each command, typed by hand from its pages, not taken from the command table.
 #pragma once
 
 #include <span>
@@ -10,31 +10,31 @@ namespace axisgate::refusals {
 
 using Lines = std::vector<std::string>;
 
-// Where a command works: the notes of manual 4. and 37), and the lists of 102), 111) and 117).
+// Modes in which a command works, from the notes of manual 4. and 37), and the lists of 102), 111) and 117).
 enum class Where { everywhere, asked_of_settings, host_and_program, host, program, editing, switches };
 
 struct Sentence {
   int section = 0;
-  std::string command;  // as the manual heads it: "M:"
-  std::string line;     // as it is taken in the ordinary state
-  // Of "In the case of Busy, the motor excitation is OFF or the limit sensor is detected, it will be NG" the letters B,
-  // E and L.
+  std::string command;  // heading in the manual: "M:"
+  std::string line;     // valid line, accepted in the ordinary state
+  // Letters B, E and L for the conditions in "In the case of Busy, the motor excitation is OFF or the limit sensor is
+  // detected, it will be NG".
   std::string ng = {};
   Where where = Where::host;
-  Lines before = {}, after = {};  // what belongs about the line: what G: starts, and the G: itself
-  Lines out_of_range = {};        // the same with a number that the manual does not allow
-  std::string malformed = {};     // of another form than the manual's
-  std::string third = {};         // naming axis 3, to a controller of axes 1 and 2
-  bool moves = false;             // sets the stage moving, or makes it ready to
+  Lines before = {}, after = {};  // lines around it: the setpoint that G: starts, or the G: itself
+  Lines out_of_range = {};        // lines with a number that the manual does not allow
+  std::string malformed = {};     // line whose form differs from the manual's
+  std::string third = {};         // line with axis 3, for a controller of axes 1 and 2
+  bool moves = false;             // moves the stage, or prepares a motion
 
   bool says(char letter) const { return ng.find(letter) != std::string::npos; }
-  // Ways in and out of the mode included.
+  // The following functions include the lines that enter and leave the mode.
   Lines way_there() const;
   Lines whole() const;
   Lines with(const std::string& line_instead) const;
 };
 
-// 1) to 136), in order.
+// Returns the sentences of sections 1) to 136), in order.
 std::span<const Sentence> sentences();
 const Sentence& sentence(std::string_view command);
 

@@ -4,7 +4,7 @@
 namespace axisgate::refusals {
 namespace {
 
-// `wrong` are the same line with values that the section does not allow.
+// Returns the sentence of an interpolation. `wrong` has the line with values that the section does not allow.
 Sentence curve(int section, const std::string& command, const std::string& line, const std::string& third,
                Lines wrong = {}) {
   const bool helix = command.back() >= '3';

@@ -28,7 +28,7 @@ Sentence of_position(int section, const std::string& command, const std::string&
           .moves = moves};
 }
 
-// 102) to 110).
+// Returns sections 102) to 110).
 std::vector<Sentence> running() {
   return {
       {.section = 102, .command = "P:R", .line = "P:R", .ng = "B", .after = {"P:H"}, .malformed = "P:R1"},
@@ -47,7 +47,7 @@ std::vector<Sentence> running() {
        .out_of_range = {"P:P0", "P:P9"},
        .malformed = "P:P"},
       of_program(105, "P:S"),
-      // What follows the one line is a pause, in which P:H is NG.
+      // A pause follows the single line, and P:H is NG during a pause.
       {.section = 106,
        .command = "P:O",
        .line = "P:O",
@@ -55,7 +55,7 @@ std::vector<Sentence> running() {
        .where = Where::program,
        .after = {"P:E", "P:H"},
        .malformed = "P:OX"},
-      // 107) and 108) say "OK or NG" and name no condition.
+      // Sections 107) and 108) say "OK or NG" and name no condition.
       of_program(107, "P:E", ""),
       {.section = 108,
        .command = "P:U",
@@ -80,7 +80,7 @@ std::vector<Sentence> running() {
   };
 }
 
-// 111) to 116).
+// Returns sections 111) to 116).
 std::vector<Sentence> editing() {
   return {
       {.section = 111,

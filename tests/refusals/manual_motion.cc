@@ -1,4 +1,4 @@
-// Manual 59) to 70), 85) to 94): origin returns, ways and targets of single axes, starts, speeds.
+// Manual 59) to 70), 85) to 94): origin returns, distances and targets of single axes, starts, speeds.
 #include "tests/refusals/manual.h"
 
 namespace axisgate::refusals {
@@ -15,7 +15,8 @@ Sentence of_axes(int section, const std::string& command, const std::string& ng,
           .moves = moves};
 }
 
-// The last of the ways is that of an axis 3 that this controller does not have.
+// Returns the sentence of a command with a distance or a target. `third` names axis 3, which this controller does not
+// have.
 Sentence way(int section, const std::string& command, const std::string& ng) {
   return {.section = section,
           .command = command,
@@ -28,7 +29,8 @@ Sentence way(int section, const std::string& command, const std::string& ng) {
           .moves = true};
 }
 
-// spds and spdf 1 to 1,000,000, "Please set it to the minimum speed (S) or higher", r 1 to 1,000.
+// Returns lines with wrong speeds: spds and spdf are 1 to 1,000,000, "Please set it to the minimum speed (S) or
+// higher", r is 1 to 1,000.
 Lines wrong_speeds(const std::string& before) {
   return {before + "S0F1000R50", before + "S100F1000001R50", before + "S100F1000R0", before + "S100F1000R1001",
           before + "S2000F1000R50"};
@@ -75,7 +77,7 @@ std::vector<Sentence> origin_and_ways() {
       of_axes(62, "ZRT:", "BE", true),
       of_axes(63, "R:", "BE", false),
       of_axes(64, "RC:", "BE", false),
-      // "In the case of the motor excitation is OFF": not of Busy.
+      // "In the case of the motor excitation is OFF": Busy is not named.
       {.section = 65, .command = "L:", .line = "L:1", .ng = "E", .out_of_range = {"L:4"}, .malformed = "L:X"},
       {.section = 66, .command = "L:E", .line = "L:E", .where = Where::host_and_program, .malformed = "L:E1"},
       way(67, "M:", "BE"),

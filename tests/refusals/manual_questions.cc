@@ -1,10 +1,11 @@
-// Manual 1) to 44). None names a condition but where it works: the notes of 4. and 37), the lists of 102), 111), 117).
+// Manual 1) to 44): questions. Their only conditions are the modes in which they work: the notes of 4. and 37), the
+// lists of 102), 111), 117).
 #include "tests/refusals/manual.h"
 
 namespace axisgate::refusals {
 namespace {
 
-// An axis setting a is 1, 2, 3, A, B, C, D or W.
+// Returns the sentence of a question about axes. The axis setting a is 1, 2, 3, A, B, C, D or W.
 Sentence of_axes(int section, const std::string& line, const std::string& unit = {}) {
   return {.section = section,
           .command = line,

@@ -1,10 +1,10 @@
-// Manual 45) to 58), 95) to 101): what is set, and no motion begins.
+// Manual 45) to 58), 95) to 101): settings, which begin no motion.
 #include "tests/refusals/manual.h"
 
 namespace axisgate::refusals {
 namespace {
 
-// 45) to 50).
+// Returns sections 45) to 50).
 std::vector<Sentence> of_controller() {
   return {
       {.section = 45,
@@ -32,7 +32,7 @@ std::vector<Sentence> of_controller() {
   };
 }
 
-// 51) to 58).
+// Returns sections 51) to 58).
 std::vector<Sentence> of_axes() {
   return {
       {.section = 51,
@@ -71,7 +71,7 @@ std::vector<Sentence> of_axes() {
        .malformed = "S:1100",
        .third = "S:3,100"},
       {.section = 56, .command = "W:", .line = "W:255", .ng = "B", .out_of_range = {"W:2551"}, .malformed = "W:"},
-      // 57) and 58) name no condition: a wait is a setting of the prebuffer, which a G starts.
+      // Sections 57) and 58) name no condition: a wait is a setting of the prebuffer, which G: starts.
       {.section = 57,
        .command = "WT:",
        .line = "WT:1,1",

@@ -1,5 +1,5 @@
-// Each condition of NG in the manual, for each command that it names: the simulator refuses, and the gateway says why.
-// With AXISGATE_WRITE_REFUSALS=1 in the environment device/shrc203/REFUSALS.md is written.
+// Tests of each NG condition in the manual, for each command that it names: the simulator refuses, and the gateway
+// reports the reason. With AXISGATE_WRITE_REFUSALS=1 in the environment, the test writes device/shrc203/REFUSALS.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ std::string described(const Verdict& told) {
   return fmt::format("{}: {} ({})", name(told.problem->reason), told.problem->message, told.problem->hint);
 }
 
-// What is wrong with it; empty where nothing is.
+// Returns the fault in the gateway's problem; empty if it is as expected.
 std::string wrong_with(const Condition& condition, const Case& one, const Verdict& told) {
   const Reason wanted = one.reason == Reason::unspecified ? condition.reason : one.reason;
   if (!told.problem || told.problem->reason != wanted) return fmt::format("not {}", name(wanted));
@@ -49,7 +49,7 @@ TEST_P(Ng, TheSimulatorRefuses) {
   for (const Case& one : GetParam()->cases) EXPECT_EQ(at_simulator(*GetParam(), one), "NG") << one.line;
 }
 
-// Struck as the line arrives: the gateway learns it from NG.
+// The condition becomes true as the line arrives, so the gateway learns about it from NG.
 TEST_P(Ng, TheGatewaySaysWhy) {
   for (const Case& one : GetParam()->cases) {
     const Verdict told = at_gateway(*GetParam(), one, Moment::as_it_arrives);
@@ -80,19 +80,19 @@ INSTANTIATE_TEST_SUITE_P(Conditions, Ng, testing::ValuesIn(each_condition()), []
   return name;
 });
 
-// In the ordinary state everything is taken, so that what always refuses fails.
+// In the ordinary state every command is accepted, so a simulator that always refuses fails this test.
 TEST(Ordinary, TheSimulatorTakesEachCommand) {
   const Condition nothing;
   for (const Sentence& sentence : sentences()) {
     Case one{&sentence, sentence.line, sentence.whole(), sentence.way_there(), {}};
-    // Only a program that runs can be made to pause.
+    // Only a running program can be paused.
     if (sentence.command == "P:U") one.simulator_before.push_back("P:S");
     const std::string answer = at_simulator(nothing, one);
     EXPECT_FALSE(answer.empty() || answer.find("NG") != std::string::npos) << sentence.line << " -> " << answer;
   }
 }
 
-// But JD:, which Jog sends by itself, and P:U, since P:S is waited for.
+// Excludes JD:, which only Jog sends, and P:U, because the gateway waits for the end of P:S.
 TEST(Ordinary, TheGatewayTakesEachCommand) {
   const Condition nothing;
   for (const Sentence& sentence : sentences()) {
@@ -104,7 +104,7 @@ TEST(Ordinary, TheGatewayTakesEachCommand) {
   }
 }
 
-// "In the case of the motor excitation is OFF, it will be NG" (65)): the axis stands all the same.
+// "In the case of the motor excitation is OFF, it will be NG" (65)), but the axis is stationary.
 TEST(Stop, OfAnAxisWithoutExcitationIsNoProblem) {
   const Sentence& stop = sentence("L:");
   const Condition off{.name = "Motor excitation OFF", .manual = "65)", .strikes = [](Device& device, TimePoint now) {
@@ -117,7 +117,7 @@ TEST(Stop, OfAnAxisWithoutExcitationIsNoProblem) {
   EXPECT_TRUE(told.ended && !told.problem) << described(told);
 }
 
-// "It can be used only during operation with the J: command" (93)): what ends the operation refuses it, too.
+// "It can be used only during operation with the J: command" (93)): a condition that ends the jog also refuses JD:.
 TEST(FasterJog, EndsWithTheReasonOfTheRefusal) {
   int tried = 0;
   for (const Condition& condition : all_conditions()) {

@@ -30,7 +30,7 @@ std::string in_cell(std::string text) {
   return text;
 }
 
-// "`axisctl commands M:`" for each command alike.
+// Replaces the command in "`axisctl commands M:`", so that the hint is the same for all commands.
 std::string for_all(std::string hint, const std::string& command) {
   const auto at = hint.find(fmt::format("commands {}`", command));
   return at == std::string::npos ? hint : hint.replace(at + 9, command.size(), "COMMAND");

@@ -1,4 +1,4 @@
-// device/shrc203/REFUSALS.md, made from what the trials reported.
+// Generation of device/shrc203/REFUSALS.md from the results of the trials.
 #pragma once
 
 #include <map>
@@ -9,8 +9,8 @@
 
 namespace axisgate::refusals {
 
-// What became of one case: the gateway's words where the condition struck as the line arrived, and, where it has looked
-// before, whether anything was sent.
+// Result of one case: the gateway's answer if the condition became true as the line arrived, and whether the line was
+// sent if the gateway could know the condition before.
 struct Outcome {
   const Condition* condition = nullptr;
   const Case* one = nullptr;
@@ -18,7 +18,7 @@ struct Outcome {
   bool sent = true;
 };
 
-// By the comments of common.proto, from the Reason's name to that of its gRPC code.
+// Returns the name of the gRPC code for each Reason's name, from the comments of common.proto.
 std::map<std::string, std::string> codes_by_reason(const std::string& common_proto);
 
 std::string refusals_page(const std::vector<Outcome>& outcomes, const std::map<std::string, std::string>& codes);

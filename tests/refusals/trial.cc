@@ -15,7 +15,7 @@ using simulation::World;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// A place and coordinates saved under 1, and a program 1 that takes half a minute.
+// Lines that save a place and coordinates under number 1, and a program 1 that takes half a minute.
 const Lines kStored = {"PIT:SET,1",   "PAV:SET,1", "P:R", "P:ON", "P:SET,1,M,1,0,0,1900000,0,0,0,1,0,5",
                        "P:SET,2,END", "P:OFF",     "P:H"};
 
@@ -28,7 +28,7 @@ simulation::Setup set_up(const Condition& condition) {
   return setup;
 }
 
-// Within the silence that ends a jog.
+// Starts a jog. The request's limit of 300 ms is shorter than the silence after which the watchdog stops a jog.
 void jog(World& world, std::shared_ptr<Verdict> told, std::optional<Quantity> speed = {}) {
   JogRequest request;
   request.axes = {{1, 1, std::move(speed)}};
@@ -69,7 +69,7 @@ std::string at_simulator(const Condition& condition, const Case& one) {
 
 Verdict at_gateway(const Condition& condition, const Case& one, Moment moment) {
   World world(set_up(condition));
-  // What the device says to another does not come here.
+  // Replies to the other program or person must not reach the gateway.
   bool by_another = true, struck = false, asked = false;
   const auto strike = [&] {
     struck = true;

@@ -1,4 +1,4 @@
-// A command under a condition: sent directly to the simulated controller, and requested from the gateway over one.
+// Trials of a command under a condition: sent directly to the simulated controller, or requested from the gateway.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,25 @@
 
 namespace axisgate::refusals {
 
-// What the simulator answers to the case's line, the condition having struck; or what of the lines before it refused.
+// Returns the simulator's answer to the case's line after the condition has become true. If an earlier line is refused,
+// returns that line and its answer.
 std::string at_simulator(const Condition& condition, const Case& one);
 
-// When the condition strikes: as the line is about to reach the controller, or so long before that the gateway has
-// seen what there is to be seen.
+// Moment at which the condition becomes true: as the line is about to reach the controller, or early enough for the
+// gateway to notice.
 enum class Moment { as_it_arrives, before };
 
 struct Verdict {
   bool ended = false;
   std::optional<Problem> problem;
   std::vector<std::string> answers;
-  int sent = 0;  // how often the line was written
+  int sent = 0;  // number of times the line was written
   std::string replay;
 };
 Verdict at_gateway(const Condition& condition, const Case& one, Moment moment);
 
-// Of a jog that runs when the condition strikes, as JD: is about to reach the controller: its answers, and the jog's
-// end.
+// Runs a jog and makes the condition true as JD: is about to reach the controller. Returns the answers to JD: and the
+// end of the jog.
 Verdict of_a_faster_jog(const Condition& condition);
 
 }  // namespace axisgate::refusals

@@ -1,4 +1,4 @@
-// Lines that are refused for what they say, or for what does not stand behind them.
+// Lines that are refused for their content, or because something that they need is missing.
 #include "tests/refusals/conditions.h"
 
 namespace axisgate::refusals {
@@ -13,7 +13,7 @@ Case wrong(std::string_view command, const std::string& line) {
   return {&one, line, one.with(line), one.way_there(), {}};
 }
 
-// Given without the ways in and out of its mode.
+// Returns a case without the lines that enter and leave the command's mode.
 Case bare(const Sentence& one) { return {&one, one.line, {one.line}, {}, {}}; }
 
 std::vector<Case> bare_in_host() {

@@ -1,8 +1,8 @@
-// Three callers that move an axis each and repeat every request, with its id, until they know what it came to, over
-// connections and daemons that are killed meanwhile. After each motion the axis must be where exactly one run of it
-// leads, or none: integration/kill_test.py.
+// Program with three callers. Each moves one axis and repeats every request, with its id, until its result is known,
+// while connections and daemons are killed. After each motion the axis must be where exactly one run, or none, leads:
+// integration/kill_test.py.
 //
-// Distances are powers of four, so that the sum shows which of them ran how often.
+// Distances are powers of four, so that the sum shows how often each one ran.
 #include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 
@@ -55,7 +55,7 @@ class Caller {
   }
 
  private:
-  // Each attempt may come over a new connection.
+  // Opens a new connection for the next attempt.
   void connect() {
     grpc::ChannelArguments arguments;
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
@@ -64,7 +64,7 @@ class Caller {
     stage_ = v1::StageService::NewStub(channel);
   }
   void pause() {
-    std::this_thread::sleep_for(kPause);  // between two attempts; `ended_` and the caller's patience bound them
+    std::this_thread::sleep_for(kPause);  // between two attempts; `ended_` and the caller's time limit bound them
     connect();
   }
 
@@ -83,7 +83,7 @@ class Caller {
     return std::nullopt;
   }
 
-  // Nothing: this program ends.
+  // Returns nullopt if this program ends first.
   std::optional<std::int64_t> stationary_place() {
     while (!over()) {
       grpc::ClientContext context;
@@ -106,7 +106,8 @@ class Caller {
     return std::nullopt;
   }
 
-  // Whether it may have run for certain (true), or not for certain; nothing: this program ends before that is known.
+  // Returns true if the move ran, false if it may or may not have run. nullopt if this program ends before the outcome
+  // is known.
   std::optional<bool> move(std::int64_t way) {
     const auto memory = mark();
     if (!memory) return std::nullopt;
@@ -144,7 +145,7 @@ class Caller {
     return motion.state() == v1::MOTION_STATE_SUCCEEDED;
   }
 
-  // Where it is now; nothing: this program ends.
+  // Returns the present position. nullopt if this program ends first.
   std::optional<std::int64_t> compare(std::int64_t before, std::int64_t way, bool ran) {
     const auto now = stationary_place();
     if (!now) return std::nullopt;
@@ -158,7 +159,7 @@ class Caller {
     return now;
   }
 
-  // A motion under way is followed to its end even then, for a while.
+  // Reports whether the caller must end. After the end of the test a motion in progress is followed for 10 s more.
   bool over() {
     if (!ended_) return false;
     if (!leaving_) leaving_ = monotonic_now() + std::chrono::seconds(10);
@@ -188,7 +189,7 @@ int run(const std::string& socket, std::uint64_t seed) {
   }
   fmt::print("moving\n");
   std::fflush(stdout);
-  (void)std::getchar();  // until its input ends
+  (void)std::getchar();  // until standard input ends or has a byte
   ended = true;
   for (std::thread& thread : threads) thread.join();
   fmt::print("succeeded {} unknown-ran {} unknown-not-ran {} repeats {} wrong {}\n", counts.succeeded.load(),

@@ -7,10 +7,10 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr char kXoff = 0x13;
-constexpr std::size_t kBothEscapeK = 6;                   // bytes, before the words of an abort
-constexpr Duration kFinishes = std::chrono::minutes(30);  // whatever is in the mill
+constexpr std::size_t kBothEscapeK = 6;                   // bytes before the words of an abort
+constexpr Duration kFinishes = std::chrono::minutes(30);  // enough for anything in the mill
 
-// The number behind `key` in a line of the record.
+// Returns the number after `key` in a line of the record.
 std::optional<std::size_t> number_in(std::string_view line, std::string_view key) {
   const auto at = line.find(key);
   if (at == std::string_view::npos) return std::nullopt;
@@ -29,7 +29,7 @@ void LineToMill::write(std::string_view bytes) {
   pump(mill_.now);
 }
 
-// Without a converter the byte under way has not left the host.
+// Counts the byte in flight as unsent if there is no converter.
 std::size_t LineToMill::unsent() const { return host_.size() + (byte_ && setup_.converter == 0 ? 1 : 0); }
 
 bool LineToMill::stopped() const {
@@ -120,7 +120,8 @@ void AbortBench::finish() {
   }
 }
 
-// While the line is blocked a sender that has something to send changes nothing.
+// Skips the sender's deadlines while the line is blocked, because a sender that has something to send then changes
+// nothing.
 std::optional<TimePoint> AbortBench::next() const {
   std::optional<TimePoint> first;
   const auto earlier = [&first](std::optional<TimePoint> other) {
@@ -165,7 +166,7 @@ void AbortBench::read_record() {
   }
 }
 
-// A byte that was received is buffered, lost, or read.
+// Computes how far commands have begun: each received byte is buffered, lost, or read.
 void AbortBench::begun(std::size_t buffered) {
   const std::size_t through = delivered_ - lost_ - buffered;
   if (job_written_ && through >= *job_written_ - job_lost_ + kBothEscapeK) {

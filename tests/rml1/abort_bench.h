@@ -1,5 +1,5 @@
-// A sender and the simulated mill, with a line and a converter between them, in virtual time: what runs on after an
-// abort, and how the mill is left.
+// Test bench of a sender and the simulated mill with a line and a converter between them, in virtual time. It shows
+// how much still runs after an abort, and in which state the mill is left.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,19 @@
 
 namespace axisgate::rml1 {
 
-// What leaves the host is in the converter at once. From there it reaches the mill at the speed of the line.
+// A line with a converter. Bytes that leave the host are in the converter at once, and reach the mill at the speed of
+// the line.
 class LineToMill : public FlowLink {
  public:
   struct Setup {
     bool shows_cts = false;
     std::size_t converter = 0;  // bytes
     std::size_t late = 0;       // bytes that still leave after the mill has stopped the line
-    bool can_ignore = true;     // flow control
+    bool can_ignore = true;     // flow control can be ignored
     int baud = 9600;
   };
 
-  // `mill` outlives this.
+  // `mill` must outlive this object.
   LineToMill(simulator::MillBench& mill, Setup setup);
 
   void write(std::string_view bytes) override;
@@ -35,16 +36,17 @@ class LineToMill : public FlowLink {
   bool held() const override { return setup_.shows_cts && stopped(); }
   void ignore_flow_control(bool ignored) override { ignores_ = ignored && setup_.can_ignore; }
 
-  // When the byte under way reaches the mill.
+  // Returns the time at which the byte in flight reaches the mill.
   std::optional<TimePoint> next() const { return byte_ ? std::optional(arrives_) : std::nullopt; }
   // Begins the next byte, if it may leave.
   void pump(TimePoint now);
   char take();  // the byte that has arrived
 
-  // The line breaks: what was in the host is lost, and perhaps what was in a converter. How many bytes still arrive.
+  // Breaks the line: the host's bytes are lost, and also those of the converter if `converter_too`. Returns the number
+  // of bytes that still arrive.
   std::size_t drop(bool converter_too);
 
-  std::string written;  // to the line
+  std::string written;  // all bytes written to the line
 
  protected:
   virtual bool stopped() const;  // by the mill, as the host sees it
@@ -64,16 +66,16 @@ class LineToMill : public FlowLink {
 
 class AbortBench {
  public:
-  // `job` and `timeline` outlive this. The mill is a test_profile(), and stands at the top above the work origin. The
-  // job is started.
+  // Starts the job. `job` and `timeline` must outlive this object. The mill has the test_profile() and begins at the
+  // top above the work origin.
   AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, SendSettings settings,
              LineToMill::Setup line, std::string_view before = {});
 
   void run_for(Duration time);
-  void finish();  // until nothing more happens by itself
+  void finish();  // until nothing more happens without a command
   void press_view();
 
-  // From here on bytes of the job that are executed have run on.
+  // Aborts the job. Bytes of the job that are executed from here on count as run on.
   void abort();
   void stop_writing();
 
@@ -82,10 +84,10 @@ class AbortBench {
   simulator::Simulator::State state() { return mill_.mill.state(mill_.now); }
 
   std::size_t ran_on() const { return job_begun_ - executed_at_end_; }  // bytes of the job
-  // Bytes of the job when writing ended: what the mill had executed, and what the sender said was certain.
+  // Bytes of the job when writing ended: executed by the mill, and certain according to the sender.
   std::size_t executed_at_end() const { return executed_at_end_; }
   std::size_t certain_at_end() const { return certain_at_end_; }
-  bool abort_lost() const { return abort_lost_; }  // a byte of it, with error 16
+  bool abort_lost() const { return abort_lost_; }  // a byte of the abort was lost, with error 16
   bool raise_started_spindle() const { return raise_started_spindle_; }
 
  private:
@@ -101,13 +103,13 @@ class AbortBench {
   LineToMill line_;
   SenderLine beside_;
   Sender sender_;
-  std::size_t lines_read_ = 0;                    // of the record
-  std::size_t delivered_ = 0;                     // bytes, to the mill
-  std::size_t lost_ = 0, job_lost_ = 0;           // of these, as its buffer was full
-  std::size_t begun_before_ = 0, job_begun_ = 0;  // bytes of the job: through the last but one command, and the last
-  std::size_t executed_at_end_ = 0;               // bytes of the job, when writing ended
+  std::size_t lines_read_ = 0;                    // lines of the record
+  std::size_t delivered_ = 0;                     // bytes delivered to the mill
+  std::size_t lost_ = 0, job_lost_ = 0;           // delivered bytes lost because the mill's buffer was full
+  std::size_t begun_before_ = 0, job_begun_ = 0;  // bytes of the job up to the last but one command, and up to the last
+  std::size_t executed_at_end_ = 0;               // bytes of the job when writing ended
   std::size_t certain_at_end_ = 0;
-  std::optional<std::size_t> job_written_;  // bytes of the job, likewise
+  std::optional<std::size_t> job_written_;  // bytes of the job when writing ended
   bool abort_begun_ = false, abort_lost_ = false, raise_started_spindle_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What bounds an abort, each part shown by what happens without it; and what no abort can ensure.
+// Tests of each part that bounds an abort, by leaving the part out, and of the limits of any abort.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -26,7 +26,7 @@ MillSetup mill_of(std::string_view escape_k, Flow flow = Flow::none) {
   return mill;
 }
 
-// What ran on, at an abort so long after the start.
+// A job and the time of its abort after the start.
 struct Case {
   std::string job;
   MillSetup mill;
@@ -53,7 +53,7 @@ Outcome aborted(const Case& one) {
   return {bench.ran_on(), bench.sender().run_on()};
 }
 
-// 5 mm each, down, in 10 bytes.
+// Returns a job of cuts with the tool down: 5 mm and 10 bytes each.
 std::string cuts(int count) {
   std::string job = "^PA;V15;VS15;PU0,0;PD0,0;";
   for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PD0500,00;" : "PD0000,00;";
@@ -75,7 +75,7 @@ TEST(AbortGuard, Slack) {
   EXPECT_GT(aborted(one).ran_on, aborted(one).bound.at_most);
 }
 
-// What has left the host is not what has arrived.
+// Bytes that have left the host may not have arrived yet.
 TEST(AbortGuard, TimeOnTheLine) {
   std::string settings = "^PA;V15;VS15;PU500,0;";
   for (int i = 0; i < 400; ++i) settings += "VS15;";
@@ -84,7 +84,7 @@ TEST(AbortGuard, TimeOnTheLine) {
   EXPECT_GT(aborted(one).ran_on, 0u);
 }
 
-// While the mill executes one command its buffer can be full without it, and one more waits in the host.
+// While the mill executes one command, its buffer can be full without this command, and one more waits in the host.
 TEST(AbortGuard, TheCommandUnderWay) {
   const std::string still = "PU" + std::string(46, '0') + "1500,00000000;";  // 61 bytes
   std::string job = "^PA;V15;VS15;" + still;
@@ -99,7 +99,7 @@ TEST(AbortGuard, TheCommandUnderWay) {
   EXPECT_GT(outcome.ran_on, 512u + 128 + still.size()) << "one command is not enough";
 }
 
-// The mill does not stop the host for the sake of an abort.
+// An abort must not depend on the mill stopping the host.
 TEST(AbortGuard, FlowControlIsIgnored) {
   const std::string job = cuts(400);
   const Profile profile = test_profile();
@@ -117,7 +117,7 @@ TEST(AbortGuard, FlowControlIsIgnored) {
   }
 }
 
-// A mill that `words` have reached 12 s after a job began.
+// A mill that `words` reach 12 s after a job began.
 struct Reached {
   Reached(const std::string& job, std::string_view words) : bench(mill_of("toggle")) {
     bench.send(job);
@@ -137,7 +137,7 @@ struct Reached {
 
 std::string without(std::string words, std::string_view part) { return words.erase(words.find(part), part.size()); }
 
-// In the middle of a cut, and slow.
+// Slow cut; the words arrive in its middle.
 constexpr const char* kCutting = "^PA;V15;PD0,0;V0.5;VS1;PD1500,0;PD0,0;";
 
 TEST(AbortWords, EscapeKTwice) {
@@ -172,7 +172,7 @@ TEST(AbortWords, SpindleOff) {
   EXPECT_GT(Reached(kCutting, without(words, "!MC0;")).state.rpm, 0);
 }
 
-// VIEW is held until the mill's buffer is full, and released 5 s after the abort.
+// Keeps VIEW pressed until the mill's buffer is full, and releases it 5 s after the abort.
 void abort_with_full_buffer(AbortBench& bench) {
   bench.run_for(seconds(10));
   bench.press_view();
@@ -183,7 +183,7 @@ void abort_with_full_buffer(AbortBench& bench) {
   bench.finish();
 }
 
-// ESC.K that waits its turn among the data needs room there, as the words do in every interpretation.
+// With in-band ESC.K, the abort needs room in the buffer; its words need room in every interpretation.
 TEST(AbortLimit, AFullBufferTakesItOnlyWhereEscapeKEmptiesIt) {
   const std::string job = cuts(400);
   const Profile profile = test_profile();
@@ -198,7 +198,7 @@ TEST(AbortLimit, AFullBufferTakesItOnlyWhereEscapeKEmptiesIt) {
   }
 }
 
-// The same holds of an ESC.K that a full buffer does not take (guideline 4-1, error 16).
+// A full buffer may also discard ESC.K (guideline 4-1, error 16).
 TEST(AbortLimit, AFullBufferMayDropEscapeK) {
   const std::string job = cuts(400);
   const Profile profile = test_profile();
@@ -245,7 +245,7 @@ TEST(AbortLimit, AConverterMayKeepItWhileTheMillHasNoRoom) {
   EXPECT_EQ(bench.state().rpm, 0);
 }
 
-// Nothing shows that VIEW has stopped it.
+// The sender cannot detect that VIEW has stopped the spindle.
 TEST(AbortLimit, ASpindleThatViewStoppedTurnsForTheRaise) {
   const std::string job = cuts(400);
   const Profile profile = test_profile();
@@ -263,7 +263,7 @@ TEST(AbortLimit, ASpindleThatViewStoppedTurnsForTheRaise) {
   EXPECT_EQ(bench.state().tool.z, kTop);
 }
 
-// The first way is then longer than the Timeline has it: 500 mm.
+// The first move is then 500 mm, longer than in the Timeline.
 TEST(AbortLimit, AToolThatBeginsElsewhereIsLater) {
   const std::string job = cuts(400);
   const Profile profile = test_profile();

@@ -1,5 +1,6 @@
-// Aborts at random moments of random jobs: nothing more of the job is written, what runs on keeps within the stated
-// bound, and the tool ends up with the spindle off. Beside each the same moment with a sender that only stops writing.
+// Aborts at random moments of random jobs: nothing more of the job is written, the bytes that still run keep within the
+// stated bound, and the tool ends up with the spindle off. For comparison, each moment is repeated with a sender that
+// only stops writing.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ using simulator::Flow;
 using std::chrono::milliseconds;
 
 constexpr int kAborts = 200, kAbortsAJob = 20;
-constexpr std::size_t kBuffer = 512;  // bytes, so that a short job fills it
+constexpr std::size_t kBuffer = 512;  // bytes; small, so that a short job fills it
 constexpr double kTop = 5000;         // steps above Z0
 
 constexpr std::array kStreamings = {"paced", "full"};
@@ -50,7 +51,8 @@ std::string text(const Combination& of) {
                      of.slack_as_measured ? ", measured" : "", of.escape_k);
 }
 
-// The slack of a mill that is so much slower than the high end of its profile, and was measured.
+// Returns the measured slack of a mill that is slower than the high end of its profile, or the default slack if it is
+// not measured.
 double slack_of(const Combination& of) {
   if (!of.slack_as_measured) return SendSettings{}.slack;
   simulator::MillSetup mill = simulator::with_options({{"acceleration", "worst"}});
@@ -63,15 +65,16 @@ double slack_of(const Combination& of) {
 
 void PrintTo(const Combination& of, std::ostream* out) { *out << text(of); }
 
-// When VIEW is pressed.
+// Moment at which VIEW is pressed.
 enum class View { never, before, after, before_and_released };
 
-// Drawn for one abort.
+// Random choices for one abort.
 struct Moment {
   Duration at{};  // since the start of the job
   View view = View::never;
-  Duration view_before{}, view_after{}, held{};  // the abort; how long it is held
-  std::size_t converter = 0, late = 0;           // bytes
+  Duration view_before{}, view_after{},
+      held{};                           // from VIEW to the abort, from the abort to VIEW; time until VIEW is released
+  std::size_t converter = 0, late = 0;  // bytes
   std::vector<std::pair<std::string_view, std::string_view>> options;
 };
 
@@ -122,7 +125,7 @@ AbortBench bench_of(const Job& job, const Combination& of, const Moment& moment,
                     {.shows_cts = of.flow == Flow::rts, .converter = moment.converter, .late = moment.late});
 }
 
-// To the moment, with VIEW pressed by then where it is.
+// Runs up to the moment of the abort, with VIEW pressed and released as drawn.
 void run_to(AbortBench& bench, const Moment& moment) {
   if (held_before(moment)) {
     bench.run_for(moment.at - moment.view_before);
@@ -148,17 +151,17 @@ void run_to_the_end(AbortBench& bench, const Moment& moment) {
   bench.finish();
 }
 
-// Of one combination.
+// Results of one combination.
 struct Tally {
   int aborts = 0;
-  std::size_t ran_on = 0, ran_on_held = 0, bound = 0, bound_held = 0;  // the most, bytes
+  std::size_t ran_on = 0, ran_on_held = 0, bound = 0, bound_held = 0;  // maximum, bytes
   int left_down = 0, left_turning = 0;                                 // by a sender that only stops writing
-  std::size_t ran_on_unaborted = 0;                                    // likewise, the most
+  std::size_t ran_on_unaborted = 0;                                    // maximum by a sender that only stops
 };
 
 class Aborts : public testing::TestWithParam<Combination> {
  protected:
-  // False where the job had ended.
+  // Returns false if the job had already ended.
   bool abort(const Job& job, const Moment& moment) {
     AbortBench bench = bench_of(job, GetParam(), moment, slack_);
     run_to(bench, moment);
@@ -168,7 +171,7 @@ class Aborts : public testing::TestWithParam<Combination> {
     run_to_the_end(bench, moment);
     expect_only_words(bench, before.size());
     expect_within_bound(bench, moment);
-    // A panel that holds the mill shows only once the line is stopped.
+    // A panel that stops the mill becomes visible only once the line is stopped.
     if (!held_before(moment)) {
       EXPECT_LE(bench.certain_at_end(), std::max(bench.executed_at_end(), prologue().size()));
     }
@@ -201,7 +204,7 @@ class Aborts : public testing::TestWithParam<Combination> {
     }
   }
 
-  // abort_guard_test.cc, AbortLimit.
+  // See AbortLimit in abort_guard_test.cc.
   static void expect_had_no_room(const Moment& moment) {
     EXPECT_EQ(GetParam().flow, Flow::none);
     EXPECT_STREQ(GetParam().escape_k, "in-band");
@@ -218,13 +221,13 @@ class Aborts : public testing::TestWithParam<Combination> {
     if (bench.state().rpm > 0) ++tally_.left_turning;
   }
 
-  // AXISGATE_SEED repeats a failure, from the seed that it printed.
+  // Returns the first seed. AXISGATE_SEED repeats a failure from the seed that it printed.
   std::uint64_t first_seed() const {
     const char* only = std::getenv("AXISGATE_SEED");
     return only != nullptr ? std::strtoull(only, nullptr, 10) : GetParam().first_seed;
   }
 
-  // The columns: device/rml1/sending/README.md.
+  // Prints one row. Its columns are explained in device/rml1/sending/README.md.
   void print() const {
     std::cout << fmt::format("| {} | {} | {} of {} | {} of {} | {} | {} | {} |\n", text(GetParam()), tally_.aborts,
                              tally_.ran_on, tally_.bound, tally_.ran_on_held, tally_.bound_held,
@@ -274,7 +277,7 @@ std::vector<Combination> combinations() {
   return all;
 }
 
-// As slow as it was measured, so its slack is less than the default.
+// Returns mills with measured slack, which is less than the default slack.
 std::vector<Combination> measured_combinations() {
   std::vector<Combination> all;
   for (const Flow flow : {Flow::none, Flow::xon, Flow::rts}) {

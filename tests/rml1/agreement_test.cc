@@ -1,5 +1,5 @@
-// The gateway's model and the simulated mill, which share no parser and no machine, on the same jobs: the same moves
-// and waits, the same final place, the same duration.
+// Comparison of the gateway's model with the simulated mill on the same jobs: the same moves and waits, the same final
+// place, the same duration. The two share no parser and no machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ namespace axisgate::rml1::agreement_test {
 namespace {
 
 constexpr unsigned kSeeds = 1000;
-constexpr double kPart = 0.001;    // by which two durations may differ
-constexpr double kInstant = 0.01;  // seconds; of a job that takes none
+constexpr double kPart = 0.001;    // permitted relative difference of two durations
+constexpr double kInstant = 0.01;  // seconds; permitted difference for a job that takes no time
 
 struct Job {
   std::string name, text;
@@ -34,7 +34,7 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Ended by a delimiter, and without !NR: how long that takes, and what the spindle does meanwhile, is a person's affair
+// Ends the job with a delimiter and removes !NR: the length of its pause, and the spindle meanwhile, depend on a person
 // (guideline 3-3 !NR).
 Job whole(const std::string& name, std::string text) {
   for (auto at = text.find("!NR"); at != std::string::npos; at = text.find("!NR")) text.replace(at, 3, ";");
@@ -50,8 +50,8 @@ std::vector<Job> files() {
   return jobs;
 }
 
-// The guideline's examples, and its cases of clipping. But none for a parser with a row of its own, and none with half
-// a step, which may be rounded either way.
+// Returns the guideline's examples and its cases of clipping. Leaves out examples for a parser with an additional row,
+// and examples with half a step, which may be rounded up or down.
 std::vector<Job> typed() {
   std::vector<Job> jobs;
   for (const Paragraph& example : paragraphs("examples")) {
@@ -92,7 +92,7 @@ simulator::MillSetup setup(const Profile& profile, std::string_view acceleration
   simulator::MillSetup made;
   made.profile = profile;
   made.slower_percent = slower_percent;
-  // An ESC.K among the bytes ends what is under way, and what follows is executed: as a check of a job has it.
+  // ESC.K among the bytes ends the movement in progress, and the following bytes are executed, as in a check of a job.
   return simulator::with_options({{"acceleration", acceleration}, {"escape_k", "one-shot"}}, made);
 }
 
@@ -100,13 +100,13 @@ void expect_close(double mill, double model, const Job& job) {
   EXPECT_NEAR(mill, model, model * kPart + kInstant) << job.name << ": " << job.text;
 }
 
-// Of dwells the longest time has more than a mill makes that dwells once for each command.
+// Expects equal durations. With dwells, the longest time may be greater: the mill dwells only once for each command.
 void expect_time(double mill, double longest, const Job& job) {
   if (job.text.find('W') == std::string::npos) return expect_close(mill, longest, job);
   EXPECT_LE(mill, longest * (1 + kPart) + kInstant) << job.name << ": " << job.text;
 }
 
-// What `axisctl mill check` prints as the longest time, of a machine that needs none to accelerate.
+// Returns the longest time that `axisctl mill check` prints, for a machine that needs no time to accelerate.
 double seconds_of_check(const Job& job, Profile profile) {
   profile.acceleration = {.best = 1e9, .worst = 1e9, .slower = 0};
   Check check(profile, {.origin = kWork, .stock = {}, .others = {}});
@@ -153,8 +153,8 @@ TEST(MillAndModel, TakeTheSameTimeOnALine) {
   }
 }
 
-// The range on which a sender's progress and window rest: distance over speed at the one end; at the other from rest to
-// rest, with all that a profile has of slowness.
+// A sender's progress and window are based on this range. Its low end is distance over speed; at its high end every
+// move begins and ends with the tool stationary, as slow as the profile allows.
 TEST(MillAndModel, TheTimeIsWithinTheRange) {
   const auto mills = profiles();
   for (const Job& job : all_jobs()) {

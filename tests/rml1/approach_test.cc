@@ -1,5 +1,5 @@
-// A job that is continued in its middle: the way there, typed by hand, and of random jobs that the simulated mill does
-// the same from there on as in the whole job.
+// Tests of a job that is continued in its middle: its approach, typed by hand; and random jobs, which from the place on
+// must do the same on the simulated mill as the whole job.
 #include "device/rml1/mill/approach.h"
 
 #include <gmock/gmock.h>
@@ -19,11 +19,11 @@ namespace {
 using testing::EndsWith;
 using testing::HasSubstr;
 
-// Of test_profile(): Z rises with 15 mm/s to the top, which is at 0. "Actual Z2 operation stops at the topmost
-// location" (guideline 3-3 !PZ), so the tool travels there.
+// Approach to the top with test_profile(): Z rises with 15 mm/s to the top, which is at 0. "Actual Z2 operation stops
+// at the topmost location" (guideline 3-3 !PZ), so the tool travels there.
 const std::string kUp = "!MC0;^PA;!VZ15;!ZM0;!PZ0,8388607;";
 
-// What is written, from the first command that is at `part` of the job or behind it.
+// Returns the text that is written when the job continues at the first command at or after `part`.
 std::string words(const std::string& job, const std::string& part, std::optional<Origin> origin = kWork) {
   const Result<Approach> approach = approach_to(job, job.find(part), test_profile(), origin);
   return approach ? continued(job, *approach) : approach.error().message;
@@ -91,7 +91,7 @@ TEST(Approach, IsRefusedWhereNobodyKnowsTheWay) {
   EXPECT_THAT(words("PU5,5;^PR;Z1,1,-20;Z2,2,-20;", "Z2,2"), EndsWith("!ZZ6,6,4980;^PR;Z2,2,-20;"));
 }
 
-// The mill may have been there already.
+// The mill may already have executed this command.
 TEST(Approach, IsNotChosenBeforeWhatNothingGivesBack) {
   Profile profile = test_profile();
   profile.spindle.law = Spindle::Law::direct;
@@ -143,7 +143,7 @@ TEST(ContinuedJob, IsJudgedAsTheWholeIs) {
 
 using Kind = Course::Event::Kind;
 
-// Up, across at the top, and down: `end` of its events, from `at` on.
+// Expects the tool to go up, across at the top, and down, in the events before `end`.
 void expect_safe(const Course& course, std::size_t end, std::uint64_t seed) {
   bool across = false, down = false;
   simulator::Position tool = {10'000, 10'000, 0};
@@ -158,7 +158,7 @@ void expect_safe(const Course& course, std::size_t end, std::uint64_t seed) {
   }
 }
 
-// A continued job starts its spindle earlier.
+// Returns the job's course without spindle starts, because a continued job starts its spindle earlier.
 Course course(const std::string& job, const simulator::MillSetup& setup) {
   Course course = course_of_mill(";^DF;" + job + ";", setup);
   std::erase_if(course.events, [](const Course::Event& event) { return event.kind == Kind::spin_up; });
@@ -176,7 +176,7 @@ TEST(ContinuedJob, DoesFromThereOnWhatTheWholeJobDoes) {
     const std::uint64_t from = static_cast<std::uint64_t>(random.between(30, 390));
     const Result<Approach> approach = approach_to(job, from, profile, kWork);
     if (!approach) continue;
-    // Some would come down while the spindle is prohibited.
+    // Skips jobs whose tool would come down while the spindle is prohibited.
     if (!check_continued(job, *approach, profile, kWork, std::nullopt)) continue;
     ++continued_jobs;
     const Course whole = course(job, setup), before = course(job.substr(0, approach->at.offset), setup);

@@ -14,10 +14,10 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr Duration kLongAfter = std::chrono::minutes(10);         // nothing but what is stuck takes as long
-constexpr Duration kAbortOnLine = std::chrono::milliseconds(50);  // its 40 bytes need 42
+constexpr Duration kLongAfter = std::chrono::minutes(10);         // only a stuck line takes as long
+constexpr Duration kAbortOnLine = std::chrono::milliseconds(50);  // the abort's 40 bytes need 42 ms
 constexpr std::size_t kLinesShown = 25;
-constexpr std::size_t kStepsAtOnce = 10'000;  // a deadline that does not move
+constexpr std::size_t kStepsAtOnce = 10'000;  // limit for steps without progress of time
 
 Job job_of(JobNumber number) {
   return {.number = number,
@@ -55,7 +55,7 @@ LineFaultRun BadLine::run() {
   return result_;
 }
 
-// A confirmation that has become void starts nothing, whatever made it so.
+// Expects that a void confirmation starts nothing, for every reason that makes it void.
 void BadLine::before_start() {
   mill_.link_up(bench_.now);
   mill_.add(job_of(kFirst), bench_.now);
@@ -86,7 +86,7 @@ void BadLine::start() {
   bound_ = prepared_->plan().run_on;
 }
 
-// Until all that was drawn has happened, and the job has ended or will not.
+// Runs until all drawn acts have happened and the job has ended or cannot end.
 void BadLine::run_job() {
   const TimePoint began = bench_.now;
   const auto longest = std::chrono::duration<double>(prepared_->timeline().slowest_s() * plan_.settings.sending.slack);
@@ -158,12 +158,12 @@ void BadLine::break_line() {
   range_ = mill_.jobs().front().written;
 }
 
-// The first thing that is written then is the abort.
+// Reconnects the line. The abort must then be written first.
 void BadLine::bring_line_back() {
   const std::size_t before = abort_writes_;
   mill_.link_up(bench_.now);
   const bool sent = abort_writes_ > before;
-  // One that was requested before may have been lost with the line.
+  // An abort that was requested earlier may have been lost with the line.
   if (sent != abort_outstanding_ && !(sent && abort_requested_)) {
     violate(abort_outstanding_ ? "the line is back and no abort is sent" : "an abort is sent that nobody requested");
   }

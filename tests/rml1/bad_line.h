@@ -1,4 +1,4 @@
-// A mill, its controller and a bad line between them, in virtual time: one seed, one run.
+// Test bench of a mill and its controller with a bad line between them, in virtual time. One seed is one run.
 #pragma once
 
 #include <cstdint>
@@ -20,19 +20,19 @@
 namespace axisgate::rml1 {
 
 struct LineFaultRun {
-  std::optional<std::string> violation;  // the first of what must hold and did not
-  std::string replay;                    // what was drawn, and the last of what happened
-  JobState outcome = JobState::queued;   // of the job
-  // What occurred.
+  std::optional<std::string> violation;  // the first violated requirement
+  std::string replay;                    // the drawn choices and the last events
+  JobState outcome = JobState::queued;   // outcome of the job
+  // Faults that occurred.
   bool byte_changed = false, stuck = false, xon_lost = false, line_broke = false, was_busy = false;
   std::size_t ran_on = 0;  // bytes, after an abort of the job
 };
 
-// Two jobs are in the queue. The first is confirmed and sent, and what becomes of it is settled.
+// A BadLine has two jobs in its queue. It confirms and sends the first, and then settles its outcome.
 class BadLine : private MillEvents {
  public:
   explicit BadLine(std::uint64_t seed);
-  LineFaultRun run();  // once
+  LineFaultRun run();  // call once
 
  private:
   void before_start();
@@ -64,7 +64,7 @@ class BadLine : private MillEvents {
   void writes_of_job(std::string_view bytes);
 
   bool runs() const { return mill_.running_job() != 0; }
-  // A fault that nothing shows: a changed byte, or a lost XON while bytes wait in a converter.
+  // Reports a fault that cannot be detected: a changed byte, or a lost XON while bytes wait in a converter.
   bool is_hidden() const { return result_.byte_changed || (line_.has_lost_xon() && plan_.line.converter > 0); }
   JobState state() const { return states_.at(kFirst); }
   void violate(std::string what);
@@ -95,12 +95,13 @@ class BadLine : private MillEvents {
   ExecutedJob executed_;
 
   std::map<JobNumber, JobState> states_;
-  std::deque<std::uint64_t> under_way_;  // of each byte on the line: through which byte of the text; 0: none of it
+  std::deque<std::uint64_t>
+      under_way_;  // for each byte on the line, the number of text bytes up to it; 0: not part of the text
   std::uint64_t job_written_ = 0, noted_ = 0, job_arrived_ = 0;       // bytes; the first and the last of the text
-  std::uint64_t taken_ = 0;                                           // bytes of the job, as was said last
+  std::uint64_t taken_ = 0;                                           // bytes of the job, last reported
   std::size_t lines_read_ = 0, abort_writes_ = 0, without_time_ = 0;  // without_time_: steps
   bool aborted_ = false;                                              // while the job ran
-  bool abort_outstanding_ = false;                                    // requested with the line closed
+  bool abort_outstanding_ = false;                                    // requested while the line was closed
   bool abort_requested_ = false;
   bool fed_looked_at_ = false;
   std::uint64_t executed_at_abort_ = 0;

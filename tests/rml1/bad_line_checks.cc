@@ -1,4 +1,4 @@
-// What must hold at the end of a run, and what must be refused.
+// Requirements at the end of a run, and requests that must be refused.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ void BadLine::expect_refused(const Result<void>& result, Reason reason, std::str
 void BadLine::expect_end() {
   if (result_.violation) return;
   if (runs() && result_.byte_changed) {
-    abort();  // a speed or a dwell may be another, so that it takes hours
+    abort();  // a changed speed or dwell may take hours
   } else if (runs() && (plan_.sticks_forever || line_.has_lost_xon())) {
     expect_busy_and_abort();
   }
@@ -32,7 +32,7 @@ void BadLine::expect_end() {
   const JobState outcome = state();
   const bool fed = outcome == JobState::fed;
   if (fed && plan_.sticks_forever && result_.stuck) violate("CTS is stuck for ever, and the job is FED");
-  run_for(std::chrono::minutes(30));  // whatever is in the mill
+  run_for(std::chrono::minutes(30));  // enough for anything in the mill
   if (outcome == JobState::aborted) expect_little_ran_on();
   if (outcome == JobState::paused_unknown) expect_range_holds();
 }
@@ -46,14 +46,14 @@ void BadLine::expect_busy_and_abort() {
   if (state() != JobState::aborted || line_.unsent() > 0) violate("an abort has not left the host after 1 s");
 }
 
-// FED is said of the slowest mill, so to a thousandth of the job's time.
+// FED applies to the slowest mill, with a tolerance of a thousandth of the job's time.
 void BadLine::expect_fed_is_true() {
   const std::chrono::duration<double> thousandth(prepared_->timeline().slowest_s() / 1000);
   run_for(std::chrono::duration_cast<Duration>(thousandth) + std::chrono::milliseconds(1));
   if (!is_hidden() && !executed_.whole()) violate("the job is FED, and the mill has not executed all of it");
 }
 
-// What has not reached the mill has been neither taken nor executed.
+// Expects that bytes which have not reached the mill are reported neither as taken nor as executed.
 void BadLine::expect_progress_is_true() {
   if (!runs() || is_hidden()) return;
   const SendProgress progress = mill_.running(bench_.now)->progress;
@@ -65,7 +65,7 @@ void BadLine::expect_progress_is_true() {
   taken_ = progress.taken;
 }
 
-// Where an XON was lost, nothing shows what a converter holds.
+// Expects few bytes to run on. After a lost XON the bytes in a converter are unknown.
 void BadLine::expect_little_ran_on() {
   if (result_.byte_changed) return;
   result_.ran_on = executed_.begun() - std::min(executed_.begun(), executed_at_abort_);
@@ -81,7 +81,8 @@ void BadLine::expect_range_holds() {
   }
 }
 
-// No other job is confirmed before a person has said what became of this one; then it is.
+// Expects that no other job can be confirmed before a person has stated the outcome of this job, and that it can be
+// afterwards.
 void BadLine::expect_next_waits() {
   if (result_.violation) return;
   const JobState outcome = state();
