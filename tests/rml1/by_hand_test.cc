@@ -1,5 +1,5 @@
-// What a person does with a mill besides jobs: the words of it, typed by hand from the guideline, and when it may be
-// sent.
+// Tests of a person's actions at a mill apart from jobs: their commands, typed by hand from the guideline, and when
+// they may be sent.
 #include "device/rml1/mill/by_hand.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ std::string bytes_of(const HandAct& act, const Profile& profile = test_profile()
   return words ? words->bytes : std::string(name(words.error().reason));
 }
 
-// "!MC 0" keeps the spindle off, which a movement starts otherwise (5-2); !ZZ is relative behind PR (5-3).
+// "!MC 0" keeps the spindle off, which a movement would start (5-2). !ZZ is relative after PR (5-3).
 TEST(ByHand, AStepIsRelativeAndTheSpindleStopsBeforeIt) {
   EXPECT_EQ(bytes_of(JogStep{5, 0, -0.5, 3}), ";!MC0;^PR;!VZ3;!ZZ500,0,-50;^PA;");
   EXPECT_EQ(bytes_of(JogStep{0, -50, 50, 3}), ";!MC0;^PR;!VZ3;!ZZ0,-5000,5000;^PA;");
@@ -60,7 +60,7 @@ TEST(ByHand, AStepIsAsFastAsTheMillCan) {
   EXPECT_EQ(bytes_of(JogStep{1, 0, 0, std::numeric_limits<double>::quiet_NaN()}), "TOO_FAST");
 }
 
-// Behind PR "the specified value referenced from the present Z-axis coordinate" (3-3 !ZO).
+// After PR, "the specified value referenced from the present Z-axis coordinate" (3-3 !ZO).
 TEST(ByHand, TheOriginIsSetHereOrAtAMachineCoordinate) {
   EXPECT_EQ(bytes_of(SetSurface{}), ";^PR;!ZO0;^PA;");
   EXPECT_EQ(bytes_of(SetSurface{-800}), ";^PA;!ZO-800;");
@@ -82,7 +82,7 @@ TEST(ByHand, TheSpindleAndTheRaise) {
   EXPECT_EQ(bytes_of(RaiseTool{}, profile), ";!MC0;^PA;!VZ12.5;!ZM0;");
 }
 
-// What the model of the mill makes of the same words.
+// Compares with the model of the mill, given the same commands.
 TEST(ByHand, TheModelGoesWhereTheStepLeads) {
   const Profile profile = test_profile();
   const Played stepped = play("PA;PU1000,1000;" + bytes_of(JogStep{5, -1, 0, {}}) + "PU2000,2000;", profile);
@@ -198,7 +198,7 @@ TEST_F(ByHandAtTheMill, AnAbortEndsAStep) {
   EXPECT_THAT(line_.writes.back(), HasSubstr("\x1B.K\x1B.K!MC0;"));
 }
 
-// 60.5 mm at 15 mm/s, by a mill that takes half as long again, are 6.05 s and more.
+// A rise of 60.5 mm at 15 mm/s, by a mill that takes half as long again, lasts at least 6.05 s.
 TEST_F(ByHandAtTheMill, AfterAnAbortNothingThatNeedsTheToolAtRest) {
   ASSERT_TRUE(mill_.abort({.who = "unix bert"}, now_));
   line_.run_to(now_ += 6s);

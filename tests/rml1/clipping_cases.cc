@@ -3,7 +3,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// X 0 to 1000, Y 0 to 1000, Z -1000 to 500.
+// Returns a mill with X 0 to 1000, Y 0 to 1000, Z -1000 to 500.
 Profile small_mill() {
   Profile profile = test_profile();
   profile.x_mm = profile.y_mm = 10;

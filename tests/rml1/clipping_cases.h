@@ -1,4 +1,4 @@
-// The geometries of clipping/cases.txt, and what the machine makes of them.
+// The geometries of clipping/cases.txt and the machine's moves for them.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ namespace axisgate::rml1 {
 struct ClippingCase {
   std::string job;
   Played whole;
-  std::size_t begin = 0;         // the first of its moves that is judged
-  std::vector<Point> commanded;  // from the place where that begins
+  std::size_t begin = 0;         // index of the first move that is judged
+  std::vector<Point> commanded;  // from the place where that move begins
 };
 
 ClippingCase play_case(const Paragraph& geometry);

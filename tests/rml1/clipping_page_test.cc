@@ -1,5 +1,5 @@
-// device/rml1/CLIPPING.md and its picture: the first geometry of each case A to Q, as the machine drives it. Written
-// with AXISGATE_WRITE_CLIPPING=1 in the environment.
+// Test and writer of device/rml1/CLIPPING.md and its picture: the first geometry of each case A to Q, as the machine
+// drives it. AXISGATE_WRITE_CLIPPING=1 in the environment writes them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr std::string_view kHowToWrite =
 const std::filesystem::path kFolder = paths::in_project("device/rml1");
 constexpr double kCell = 220, kScale = 0.09, kColumns = 4;
 
-// Seen from the front and a little from above and the right.
+// A point as seen from the front, slightly from above and from the right.
 struct Seen {
   double x, y;
 };

@@ -1,4 +1,4 @@
-// The cases A to Q of guideline 5-1, worked out by hand in clipping/cases.txt.
+// Tests of the cases A to Q of guideline 5-1, computed by hand in clipping/cases.txt.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// Pieces in one direction are one move.
+// Returns the corners of a course. Consecutive pieces in one direction count as one move.
 std::vector<std::string> corners(const std::vector<Move>& moves, std::size_t begin) {
   std::vector<std::string> found;
   for (std::size_t index = begin; index < moves.size(); ++index) {
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, Clipping, testing::ValuesIn(paragraphs("clipping
   return name;
 });
 
-// A to Q, each of them.
+// Each case from A to Q must be present.
 TEST(Clipping, EveryCaseIsThere) {
   std::string letters;
   for (const Paragraph& one : paragraphs("clipping/cases.txt")) {

@@ -33,7 +33,7 @@ class Model : public ParserListener, public MachineListener {
   void execute(const Instruction& instruction) override { machine_.execute(instruction); }
   void quit() override { machine_.quit(); }
   void moved(const Move& move) override {
-    // Clipping leaves what is no move but the rounding of one.
+    // Clipping can leave a tiny move that is only a rounding error.
     if (length(move.to - move.from) > kSame) course_.events.push_back({Kind::moved, place(move.to)});
   }
   void waited(Wait what, double seconds, std::uint64_t) override {
@@ -54,7 +54,7 @@ class Model : public ParserListener, public MachineListener {
   Course course_;
 };
 
-// "...:[[1,2,3],[4,5,6]]}" behind the key.
+// Parses the numbers after the key: "...:[[1,2,3],[4,5,6]]}".
 std::vector<double> numbers_after(const std::string& line, std::string_view key) {
   std::string text = line.substr(line.find(key) + key.size());
   std::ranges::replace_if(
@@ -65,7 +65,7 @@ std::vector<double> numbers_after(const std::string& line, std::string_view key)
   return numbers;
 }
 
-// At the work origin and at the top, as a job of the model begins.
+// A mill at the work origin and at the top, where a job of the model begins.
 class Mill : public simulator::MillBench {
  public:
   explicit Mill(const simulator::MillSetup& setup) : MillBench(setup), profile_(setup.profile) {

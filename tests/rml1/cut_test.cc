@@ -1,4 +1,4 @@
-// Where a job is cut in writes, and what of it cannot be cut.
+// Tests of the places at which a job is cut into writes, and of parts that cannot be cut.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ TEST(Cut, IsBehindACommandAndItsDelimiters) {
               ElementsAre("PU;", "PA1,2;\r\n", "PD 3 4;\n;", "Z1,2,3\n", "V 5"));
 }
 
-// "^" waits for the command that it calls, whatever delimiters are between (guideline 1-2).
+// "^" waits for the command that it calls, despite any delimiters in between (guideline 1-2).
 TEST(Cut, DoesNotPartACircumflexFromItsCommand) {
   EXPECT_THAT(pieces("^;\nPA;^ PD1,1;PU;"), ElementsAre("^;\nPA;", "^ PD1,1;", "PU;"));
 }
@@ -29,7 +29,7 @@ TEST(Cut, OfALongListIsBehindASet) {
   EXPECT_THAT(pieces("!ZE X10Y20:Z30;PU;", 8), ElementsAre("!ZE X10Y20:Z30;", "PU;")) << "it has no sets";
 }
 
-// Capitals and small letters are the same, and what divides commands and numbers may be left out (guideline 2-2, 2-3).
+// Upper and lower case are equal, and separators of commands and numbers may be left out (guideline 2-2, 2-3).
 TEST(Cut, OfAListHoweverItIsWritten) {
   EXPECT_THAT(pieces("pd10,20,30,40,50,60;pu;", 8), ElementsAre("pd10,20,", "30,40,", "50,60;", "pu;"));
   EXPECT_THAT(pieces("M0,0D10,20,30,40,50,60;", 8), ElementsAre("M0,0D10,20,", "30,40,", "50,60;"));
@@ -38,13 +38,13 @@ TEST(Cut, OfAListHoweverItIsWritten) {
   EXPECT_THAT(pieces("PD1-2,3,4,5,6,7,8;", 8), ElementsAre("PD1-2,3,4,5,6,7,8;")) << "what makes a set is not known";
 }
 
-// Some programs end a job with a page of line feeds.
+// A job may end with a page of line feeds, which some programs write.
 TEST(Cut, OfManyDelimitersIsBehindTheWindow) {
   EXPECT_THAT(pieces("\n;  PU;\n\n\n\n\n\n\nPD1,1;", 4), ElementsAre("\n;  ", "PU;\n", "\n\n\n\n", "\n\n", "PD1,1;"));
   EXPECT_THAT(pieces("^;;;;;;PA;PU;", 4), ElementsAre("^;;;;;;PA;", "PU;")) << "the circumflex waits for its command";
 }
 
-// A list may be as long as the job. If each cut read it to its end, this would take minutes.
+// A list may be as long as the job. This would take minutes if each cut read the list to its end.
 TEST(Cut, OfAListOfAMillionNumbers) {
   std::string job = "PD";
   for (int i = 0; i < 500'000; ++i) job += "10,20,";

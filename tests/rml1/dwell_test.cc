@@ -1,4 +1,4 @@
-// Where W and !DW make the machine wait (guideline 3-1 W).
+// Tests of when W and !DW make the machine wait (guideline 3-1 W).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 std::vector<std::string> waits(const std::string& job) { return play(job, test_profile(), kMidway).waits; }
 
-// How often half a second is waited, after the spindle has started.
+// Counts the waits of half a second after the spindle has started.
 std::size_t dwells(const std::string& job) {
   const std::vector<std::string> all = waits("Z0,0,9;W500;" + job);
   const auto count = std::count(all.begin(), all.end(), "dwell 0.5");
@@ -37,7 +37,7 @@ TEST(Dwell, ComesBeforeTheToolGoesDown) {
   EXPECT_EQ(dwells("I;"), 1u);
 }
 
-// "just before the PD tool-down operation or just before moving the XY plane": once for a command.
+// "just before the PD tool-down operation or just before moving the XY plane": once for each command.
 TEST(Dwell, ComesBeforeTheMoveInXAndYWithTheToolDown) {
   EXPECT_EQ(dwells("PD9,9;"), 1u);
   EXPECT_EQ(dwells("PD9,9;PD8,8;"), 2u);

@@ -1,4 +1,4 @@
-// Every example and every error of the guideline, typed by hand in examples/.
+// Tests of every example and every error of the guideline, typed by hand in examples/.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// The guideline's own examples of the parameter reader use a command that it does not have (2-5).
+// Row for the guideline's examples of the parameter reader: they use a command that the guideline lacks (2-5).
 constexpr Parameter kInt{true, kIntLowest, kIntHighest, false, false};
 constexpr Row kIp[] = {
     {"IP", Operation::ignored, "2-5", Takes::up_to, 4, Coordinates::kept, Tool::kept, {kInt, kInt, kInt, kInt}}};
@@ -24,7 +24,7 @@ std::span<const Row> rows_for(const Paragraph& example) {
   return example.all("%").empty() ? std::span<const Row>() : std::span<const Row>(kIp);
 }
 
-// "! 2 6" of an error, "~ 3" of anything less.
+// Returns the diagnostics as text: "! 2 6" for an error, "~ 3" for anything less severe.
 std::vector<std::string> told(const Played& played) {
   std::vector<std::string> lines;
   for (const Diagnostic& one : played.diagnostics) {
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Guideline, Examples, testing::ValuesIn(paragraphs("exam
 
 TEST(Examples, ThereAreManyOfThem) { EXPECT_GE(paragraphs("examples").size(), 600u); }
 
-// An error that a command's section has, as text: "@: error 3, parameter 1 too high".
+// Returns an error of a command's section as text: "@: error 3, parameter 1 too high".
 std::string out_of_range(const Row& row, std::size_t index, bool low) {
   return fmt::format("{}: error 3, parameter {} too {}", row.name, index + 1, low ? "low" : "high");
 }
@@ -88,7 +88,7 @@ std::set<std::string> possible_errors(const Row& row) {
   return found;
 }
 
-// What stands between a command's name and `at`, where that is still in the command's list.
+// Returns the text between a command's name and `at`. nullopt if `at` is no longer in the command's list.
 std::optional<std::string> list_before(const std::string& job, std::size_t at, const Row& row) {
   std::string list = job.substr(0, at);
   list.erase(0, list.find_last_of(";\r\n") + 1);
@@ -108,14 +108,14 @@ std::size_t count_numbers(const std::string& list) {
   return count;
 }
 
-// Which error of `row` an example's error is; "" if it is none that the row's section has.
+// Returns the error of `row` that an example shows; empty if the row's section has no such error.
 std::string shown_error(const std::string& job, int number, std::size_t at, const Row& row) {
   const std::optional<std::string> list = list_before(job, at, row);
   if (!list) return "";
   if (row.takes == Takes::axes) return fmt::format("{}: error {}", row.name, number);
   const std::size_t before = count_numbers(*list);
   if (number == 2) {
-    const bool apart = list->empty() || !begins_number(list->back());  // else the number before was cut short
+    const bool apart = list->empty() || !begins_number(list->back());  // otherwise the previous number was cut short
     const bool left = apart && begins_number(job.at(at)) && row.count > 0 && before % row.count == 0;
     const bool shows = row.takes == Takes::sets ? left : before == row.count;
     return shows ? fmt::format("{}: error 2", row.name) : "";

@@ -12,7 +12,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kOnTheWay = 1e-3;  // steps
+constexpr double kOnTheWay = 1e-3;  // steps; tolerance for a place on the path
 
 std::optional<std::size_t> buffered_in(std::string_view line) {
   constexpr std::string_view kKey = "\"buffered\":";
@@ -59,14 +59,14 @@ void ExecutedJob::recorded(const std::string& line) {
   }
 }
 
-// As its buffer was full.
+// Handles a byte that was lost because the mill's buffer was full.
 void ExecutedJob::lost(std::uint64_t through) {
   if (through == 0) return;
   if (!same_through_ && !may_overflow_) violate("a byte of the job found the mill's buffer full");
   changed(through);
 }
 
-// These bytes are not in the buffer, and nothing has come of them yet.
+// Returns the number of bytes of an unfinished escape. They are not in the buffer and have had no effect yet.
 std::size_t ExecutedJob::unfinished_escape() const {
   constexpr char kEscape = '\x1B';
   const std::size_t size = bytes_.size();
@@ -74,7 +74,7 @@ std::size_t ExecutedJob::unfinished_escape() const {
   return size > 1 && bytes_[size - 1].value == '.' && bytes_[size - 2].value == kEscape ? 2 : 0;
 }
 
-// A byte that was received is buffered, lost, or read.
+// Notes that a command begins. Each received byte is buffered, lost, or read.
 void ExecutedJob::begins(std::size_t buffered) {
   const std::uint64_t through = bytes_.at(bytes_.size() - unfinished_escape() - buffered - 1).through;
   of_job_ = through > 0;
@@ -99,7 +99,7 @@ void ExecutedJob::happened(const Course::Event& event) {
   if (event.kind == Course::Event::Kind::moved) tool_ = event.to;
 }
 
-// ESC.K ends the movement under way (guideline 4-2).
+// Reports whether the event is a part of the expected movement: ESC.K ends a movement in progress (guideline 4-2).
 bool ExecutedJob::is_part_of(const Course::Event& event) const {
   const Course::Event& expected = course_[next_];
   using Kind = Course::Event::Kind;

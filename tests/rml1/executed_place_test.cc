@@ -1,4 +1,4 @@
-// Where what a mill has executed of a job ends, as it is said after an abort.
+// Tests of the place that is reported after an abort: up to where the mill has executed the job.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// What is executed of `body` when that of `executed` is, and `written` is written: both are beginnings of it.
+// Returns the range of the executed place in `body` after execution of `executed` and writing of `written`. Both are
+// beginnings of `body`.
 PlaceRange range(const std::string& body, const std::string& executed, const std::string& written) {
   const PreparedJob job(body, "d1", test_profile(), std::nullopt, SendSettings());
   const std::size_t before = prologue().size();
@@ -28,7 +29,7 @@ TEST(ExecutedPlace, IsWhereTheNextCommandBegins) {
   EXPECT_EQ(range(body, "PU1,1;\r\nPD2,2;", "PU1,1;\r\nPD2,2; \nPD3,3;"), (PlaceRange{{16, 3, 1}, {22, 3, 7}}));
 }
 
-// "PD2,2PD3,3": the second P ends the first command.
+// In "PD2,2PD3,3", the second P ends the first command.
 TEST(ExecutedPlace, OfACommandThatTheNextOneEnds) {
   EXPECT_EQ(range("PD2,2PD3,3;", "PD2,2P", "PD2,2PD3,3;"), (PlaceRange{{5, 1, 6}, {11, 1, 12}}));
 }
@@ -42,7 +43,7 @@ TEST(ExecutedPlace, BeforeTheFirstAndBehindTheLast) {
   EXPECT_EQ(range("PU1,1;\nPD2,2;\n", "PU1,1;\nPD2,2;", "PU1,1;\nPD2,2;\n;PU;"), (PlaceRange{{14, 3, 1}, {14, 3, 1}}));
 }
 
-// All that is written is executed: what follows it does not begin before it ends.
+// Everything written has been executed: the next command does not begin before the end of the written bytes.
 TEST(ExecutedPlace, IsNeverBehindWhatIsWritten) {
   EXPECT_EQ(range("PU1,1;\n\nPD2,2;", "PU1,1;", "PU1,1;\n"), (PlaceRange{{8, 3, 1}, {8, 3, 1}}));
 }
@@ -69,7 +70,7 @@ class ExecutedPlaceTest : public MillControllerTest {
   const std::optional<PlaceRange>& executed() const { return mill_.jobs().front().executed; }
 };
 
-// The spindle starts in 2 s and a move takes 0.9 s by test_profile(). By the slack of SendSettings the slowest mill
+// By test_profile() the spindle starts in 2 s and a move takes 0.9 s. By the slack of SendSettings the slowest mill
 // takes half as long again: at 5.7 s it has executed V, VS and two moves, which are 24 bytes.
 TEST_F(ExecutedPlaceTest, IsKnownWhenAnAbortIsRequestedAndSaidWhenItWasSent) {
   begin();
@@ -86,8 +87,8 @@ TEST_F(ExecutedPlaceTest, IsKnownWhenAnAbortIsRequestedAndSaidWhenItWasSent) {
                                       column));
 }
 
-// Somebody may have pressed VIEW: by its profile the mill would have executed more in a minute than it has. What has
-// left the host has room in its buffer.
+// A person may have pressed VIEW: by its profile the mill would have executed more in a minute than it has. All bytes
+// that have left the host fit into the mill's buffer.
 TEST_F(ExecutedPlaceTest, IsNotByTheProfileWhereTheLineIsStopped) {
   begin();
   run_for(5900ms);
@@ -100,7 +101,7 @@ TEST_F(ExecutedPlaceTest, IsNotByTheProfileWhereTheLineIsStopped) {
   EXPECT_EQ(executed()->most.offset, noted_);
 }
 
-// By then the mill may have discarded what its model has executed since.
+// The mill may have discarded, by the second abort, bytes that its model has executed since the first.
 TEST_F(ExecutedPlaceTest, TheFirstAbortCounts) {
   begin();
   run_for(2500ms);

@@ -1,4 +1,4 @@
-// A line to a mill in virtual time: a host's queue that empties at the line's speed, and flow control that a test sets.
+// Line to a mill in virtual time: a host's queue that empties at the line's speed, and flow control that a test sets.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class FakeMillLine : public FlowLink {
  public:
   explicit FakeMillLine(int baud = 9600) : byte_time_(std::chrono::nanoseconds(std::chrono::seconds(10)) / baud) {}
 
-  // What leaves the host until then; ascends.
+  // Sends the bytes that leave the host until `now`, which must ascend.
   void run_to(TimePoint now) {
     for (; !queue_.empty() && may_leave() && last_ + byte_time_ <= now; queue_.erase(0, 1)) {
       last_ += byte_time_;
@@ -33,10 +33,10 @@ class FakeMillLine : public FlowLink {
   bool held() const override { return busy; }
   void ignore_flow_control(bool ignored) override { ignores = ignored; }
 
-  std::size_t room = 4096;  // what one write takes
+  std::size_t room = 4096;  // bytes that one write accepts
   bool busy = false, ignores = false;
-  std::string received;             // by the mill
-  std::vector<std::string> writes;  // as they came
+  std::string received;             // bytes received by the mill
+  std::vector<std::string> writes;  // one string for each write
   int reopened = 0;
 
  private:

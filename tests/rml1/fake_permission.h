@@ -1,4 +1,4 @@
-// Who may use a mill, as a test has it.
+// Permission to use a mill, set by a test.
 #pragma once
 
 #include <cstdint>

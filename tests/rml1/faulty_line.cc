@@ -18,7 +18,7 @@ void FaultyLine::write(std::string_view bytes) {
   LineToMill::write(bytes);
 }
 
-// A driver that heeds XON and XOFF again knows nothing of an earlier XOFF (device/link/runner.cc).
+// Forgets an earlier XOFF, as a driver does that obeys XON and XOFF again (device/link/runner.cc).
 void FaultyLine::ignore_flow_control(bool ignored) {
   if (ignored) xoff_ = false;
   LineToMill::ignore_flow_control(ignored);

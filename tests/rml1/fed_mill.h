@@ -1,5 +1,5 @@
-// A sender and a simulated mill at the two ends of a line, in virtual time: what the mill has really executed, and
-// when.
+// Test bench of a sender and a simulated mill at the two ends of a line, in virtual time. It shows which bytes the mill
+// has executed, and when.
 #pragma once
 
 #include <algorithm>
@@ -15,22 +15,22 @@
 
 namespace axisgate::rml1 {
 
-// Bytes leave one after the other, while the mill does not hold its host back.
+// A FedMill sends bytes one after the other while the mill does not stop its host.
 class FedMill : public FlowLink {
  public:
-  // The job outlives this.
+  // The job must outlive this object.
   FedMill(std::string_view job, simulator::MillSetup setup, int baud)
       : job_(job),
         byte_time_(std::chrono::nanoseconds(std::chrono::seconds(10)) / baud),
         mill_(std::move(setup), nobody_, [this](std::string_view line) { recorded(line); }) {}
 
-  // What leaves the host and what the mill does until then; ascends.
+  // Runs host and mill until `now`, which must ascend.
   void run_to(TimePoint now) {
     while (!queue_.empty() && wait_until_released(now) && last_ + byte_time_ <= now) {
       last_ += byte_time_;
       const char byte = queue_.front();
       queue_.erase(0, 1);
-      mill_.advance(last_);  // what it begins before it has this byte
+      mill_.advance(last_);  // commands that begin before this byte arrives
       ++received_;
       mill_.receive({&byte, 1}, last_);
     }
@@ -44,13 +44,13 @@ class FedMill : public FlowLink {
   bool held() const override { return mill_.holds_back(); }
   void ignore_flow_control(bool) override {}
 
-  // How many bytes of the job it has executed, with the delimiters behind them.
+  // Returns the number of executed bytes of the job, including the delimiters after them.
   std::uint64_t executed() const {
     std::uint64_t end = mill_.next_deadline() ? before_ : begun_;
     while (end < job_.size() && (job_[end] == ';' || job_[end] <= ' ')) ++end;
     return end;
   }
-  // When its last movement ended, since it was switched on.
+  // Returns the end of the mill's last movement, in seconds since it was switched on.
   double seconds() const { return seconds_; }
   simulator::Simulator& mill() { return mill_; }
 
@@ -70,7 +70,7 @@ class FedMill : public FlowLink {
     return true;
   }
 
-  // Of {"t":3,"command":"PD","numbers":[10,20],"buffered":6} and {"t":4,"began":3,"path":...}.
+  // Handles {"t":3,"command":"PD","numbers":[10,20],"buffered":6} and {"t":4,"began":3,"path":...}.
   void recorded(std::string_view line) {
     if (line.find("\"command\":") != std::string_view::npos) {
       const auto begun = received_ - static_cast<std::uint64_t>(number_after(line, "\"buffered\":"));
@@ -90,14 +90,16 @@ class FedMill : public FlowLink {
   const std::string_view job_;
   const Duration byte_time_;
   Nobody nobody_;
-  TimePoint last_{};  // when the last byte left, or could have
+  TimePoint last_{};  // when the last byte left, or could have left
   std::string queue_;
-  std::uint64_t received_ = 0, before_ = 0, begun_ = 0;  // bytes; of the last command that began, and of the one before
+  std::uint64_t received_ = 0, before_ = 0,
+                begun_ = 0;  // bytes; `before_` and `begun_` are the ends of the last two commands that began
   double seconds_ = 0;
   simulator::Simulator mill_;
 };
 
-// The whole job, each call at the time that the sender names. `look` is called at every `period`, with the time.
+// Sends the whole job, with each call at the time that the sender names. Calls `look` with the time once in every
+// `period`.
 template <class Line, class Look>
 void feed_all(Sender& sender, Line& line, Duration period, Look&& look) {
   TimePoint now{}, next_look = now + period;

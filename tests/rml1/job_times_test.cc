@@ -1,4 +1,4 @@
-// The time that is stated before a job is sent, beside the time that the simulated mill takes for it.
+// Comparison of the time stated before a job is sent with the time that the simulated mill takes.
 #include "device/rml1/sending/job_times.h"
 
 #include <fmt/format.h>
@@ -29,14 +29,14 @@ constexpr Duration kForever = std::chrono::hours(100);
 
 double seconds(Duration time) { return std::chrono::duration<double>(time).count(); }
 
-// A mill with flow control, and how it is fed.
+// A mill with flow control, and the streaming that feeds it.
 struct Way {
   Profile profile;
   Streaming streaming = Streaming::full;
   std::string_view acceleration = "none";
 };
 
-// From the first byte to the end of the last movement.
+// Returns the time from the first byte to the end of the last movement.
 double driven_s(const PreparedJob& job, const Way& way) {
   simulator::MillSetup setup = simulator::with_options({{"acceleration", way.acceleration}});
   setup.profile = way.profile;
@@ -61,14 +61,14 @@ void expect_within(const TimeRange& takes, double driven, const std::string& wha
   EXPECT_LE(driven, seconds(takes.most) + 0.01) << what;
 }
 
-// 20 mm at 10 mm/s, on the mill's first level: at full speed 2 s; slower throughout by half 3 s.
+// 20 mm at 10 mm/s, on the mill's first level: 2 s at full speed, 3 s if slower by half throughout.
 TEST(JobTimes, OfOneMove) {
   const PreparedJob job = prepared("!MC0;^PA;V10;Z2000,0,0;", on("none"));
   EXPECT_NEAR(seconds(job.times().whole().least), 2, 0.1);
   EXPECT_NEAR(seconds(job.times().whole().most), 3, 0.1);
 }
 
-// Where Z0 may be the top, a lift may be no way at all: at least 10 mm across at 10 mm/s.
+// A lift may have no distance if Z0 may be the top. The rest is at least 10 mm across at 10 mm/s.
 TEST(JobTimes, WithoutAnOriginWaysAboveTheSurfaceMayBeNone) {
   const std::string body = "!MC0;^PA;V10;!PZ-100,2000;F10;PU0,0;PD0,0;PD1000,0;PU1000,0;";
   const Profile profile = short_vectors_profile();
@@ -78,7 +78,7 @@ TEST(JobTimes, WithoutAnOriginWaysAboveTheSurfaceMayBeNone) {
   EXPECT_NEAR(seconds(anywhere.times().whole().least), 1 + 0.2, 0.15) << "and 1 mm down, and up";
 }
 
-// A triangle: 2 sqrt(0.2 mm / 100 mm/s2) is 89 ms, where 0.2 mm at 10 mm/s are 20 ms.
+// A triangular profile takes 2 sqrt(0.2 mm / 100 mm/s2), 89 ms, while 0.2 mm at 10 mm/s takes 20 ms.
 TEST(JobTimes, OfAMillThatStopsAtEachPoint) {
   const PreparedJob job = prepared(uniform_vectors(1000), on("none"));
   constexpr double way_s = 14.15;  // to the first point, 100.2 mm and 100 mm away
@@ -98,7 +98,7 @@ TEST(JobTimes, ContainWhatTheMillTakes) {
   }
 }
 
-// Whatever it executes, a mill gets its bytes as the slowest would have room for them.
+// The mill receives bytes only as fast as the slowest mill would have room for them.
 TEST(JobTimes, OfAPacedJobAreThoseOfItsSending) {
   const PreparedJob job = prepared(uniform_vectors(400), on("none", Streaming::paced));
   const TimeRange takes = job.times().whole();
@@ -120,7 +120,7 @@ TEST(JobTimes, WhatIsLeftBeginsAtAllAndEndsAtNothing) {
   }
 }
 
-// The mill holds its line most of the time, so it shows how fast it is.
+// The mill stops its line most of the time, which shows its pace.
 TEST(JobTimes, WhatIsLeftFollowsAMillThatShowsItsPace) {
   const Way way = on("none");
   const PreparedJob job = prepared(uniform_vectors(3000), way);
@@ -136,7 +136,7 @@ TEST(JobTimes, WhatIsLeftFollowsAMillThatShowsItsPace) {
   EXPECT_EQ(left_of(job, progress, std::nullopt), job.times().left(1000, 2000));
 }
 
-// A job of tests/jobs, written as the programs write that people use.
+// A job of tests/jobs, written like the output of common programs.
 struct Written {
   std::string file, mill, kind, body;
 };
@@ -146,7 +146,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Of each kind some, 40 in all.
+// Returns 40 jobs, a number of each kind.
 std::vector<Written> written_jobs() {
   const std::map<std::string, int> wanted = {{"board", 14}, {"outline", 7},      {"holes", 5},
                                              {"text", 4},   {"relief-rough", 5}, {"relief-fine", 5}};
@@ -166,9 +166,9 @@ std::vector<Written> written_jobs() {
 
 class TimesOfWrittenJobs : public testing::TestWithParam<const char*> {};
 
-// What is stated of one job, beside what the mill takes with each acceleration of the simulator.
+// Stated times of one job, and the mill's times with each acceleration of the simulator.
 struct Compared {
-  double stated = 0, driven = 0;  // the longest by the shortest
+  double stated = 0, driven = 0;  // ratio of the longest to the shortest
 };
 
 Compared compared(const Written& written, const Profile& profile, Streaming streaming) {
@@ -186,8 +186,8 @@ Compared compared(const Written& written, const Profile& profile, Streaming stre
   return found;
 }
 
-// On its own mill the range of a job is narrow enough to be of use: as narrow as that mill's unknown acceleration
-// allows. On another one its moves have another length.
+// On the mill that a job was made for, its range is as narrow as that mill's unknown acceleration allows, so that it is
+// useful. On another mill its moves have a different length.
 TEST_P(TimesOfWrittenJobs, ContainWhatTheMillTakes) {
   const auto profile = load_profile(profile_file(GetParam()).value().string());
   ASSERT_TRUE(profile);

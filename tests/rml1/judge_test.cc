@@ -1,4 +1,4 @@
-// Each warning that saves a workpiece, once, at the command that gives cause.
+// Tests of each warning that saves a workpiece: given once, at the command that causes it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// 1000 x 1000 x 500 steps.
+// Stock of 1000 x 1000 x 500 steps.
 constexpr Stock kStock{10, 10, 5};
 
-// "warning 0 at 7 [5-1]", without the warning of a Z1 that the profile has given (trace.h).
+// Returns diagnostics as text, "warning 0 at 7 [5-1]", without the warning about a Z1 of the profile (trace.h).
 std::vector<std::string> all(const Check& check) {
   std::vector<std::string> found;
   for (const Diagnostic& one : check.diagnostics().kept()) {
@@ -25,7 +25,7 @@ std::vector<std::string> all(const Check& check) {
 
 struct Judged {
   std::vector<std::string> told;
-  std::string text;  // of the first
+  std::string text;  // of the first diagnostic
 };
 
 Judged judge(const std::string& job, CheckOptions options, const Profile& profile = test_profile()) {
@@ -115,7 +115,7 @@ TEST(Size, IsLargerThanTheMachine) {
 }
 
 TEST(Size, InZCountsFromTheSurfaceDown) {
-  // In one pass, which is a warning of its own.
+  // In one pass, which causes a warning as well.
   EXPECT_THAT(sizes_only("Z0,0,-6051;PU;").told, ElementsAre("warning 0 at 0 [3-2]", "error 0 at 0 [5-1]"));
   EXPECT_THAT(sizes_only("Z0,0,-6050;PU;PR;Z0,0,9999;PA;").told, ElementsAre("warning 0 at 0 [3-2]"));
 }

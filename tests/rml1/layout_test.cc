@@ -1,4 +1,4 @@
-// What a picture shows of a job, and where: nothing leaves its view, and the legend has what is there.
+// Tests of a job's picture: nothing lies outside its view, and the legend lists exactly the colours shown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class Shown {
     for (const auto& entry : picture_->shades->legend()) texts.push_back(entry.text);
     return texts;
   }
-  // What a view shows, in steps.
+  // Returns the range that a view shows, in steps.
   Reach across(std::size_t view) const {
     const Picture::View& one = picture_->views[view];
     const double scale = one.scale_across();
@@ -75,8 +75,8 @@ TEST(Views, LieOnThePageApartFromEachOther) {
   }
 }
 
-// Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000: a view that showed the lifts
-// would show little of a cut of 50.
+// Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000: if the view showed the lifts,
+// it would show little of a cut of 50.
 TEST(Views, ShowTheCutAndNotTheLift) {
   for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
     const Reach z = Shown(kSquare, origin).up(1);
@@ -87,8 +87,8 @@ TEST(Views, ShowTheCutAndNotTheLift) {
   }
 }
 
-// The views, and between them the margins of their scales, cover the page but for a corner: the views of Z have the
-// size that Z has, beside and below the one from above.
+// The views, with the margins of their scales between them, cover the page except for a corner: the views of Z have the
+// size of Z, beside and below the view from above.
 TEST(Views, LeaveNoHalfOfThePageWhite) {
   for (const char* job : {"@-50,200;PU0,0;PD3000,0,3000,3000,0,0;PU;", "@-50,200;PU0,0;PD3000,0,3000,1500,0,0;PU;",
                           "@-50,200;PU0,0;PD1500,0,1500,3000,0,0;PU;", "@-50,200;PU0,0;PD9000,0,9000,2000,0,0;PU;"}) {
@@ -102,7 +102,7 @@ TEST(Views, LeaveNoHalfOfThePageWhite) {
   }
 }
 
-// The path ends at 3000, 5 mm from the edge of what a tool of 10 mm removes.
+// The path ends at 3000, 5 mm from the edge of the cut of a tool of 10 mm.
 TEST(Views, ShowCutsInTheirWidth) {
   const Profile profile = test_profile();
   Strokes strokes;
@@ -121,7 +121,7 @@ TEST(Views, CutOffWhatLeavesThem) {
   }
 }
 
-// The cuts are 2000 x 1000 steps in an area of 60500, and 1000 from the work origin, by which a person clamps the
+// The cuts are 2000 x 1000 steps in an area of 60500, and 1000 from the work origin, which a person uses to clamp the
 // workpiece.
 TEST(Views, ShowTheCutsAndTheWorkOriginAndNotTheWorkArea) {
   const Shown shown(kSquare, kMidway);
@@ -163,7 +163,7 @@ TEST(Legend, HasTheDepthsThatThereAre) {
   EXPECT_THAT(Shown("PU99,0;PU0,0;").legend(), ElementsAre("travel"));
 }
 
-// Eight ranges from 0.01 to 0.80 mm, of which the second and the third are not there.
+// Eight ranges from 0.01 to 0.80 mm, of which the second and the third are empty.
 TEST(Legend, HasTheRangesThatThereAre) {
   std::string job = "Z0,0,0;";
   for (const int z : {1, 2, 3, 4, 5, 41, 51, 61, 71, 80}) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);
@@ -171,7 +171,7 @@ TEST(Legend, HasTheRangesThatThereAre) {
                                                "to 0.61 mm deep", "to 0.71 mm deep", "to 0.80 mm deep"));
 }
 
-// A finishing that is 9 to 11 mm deep throughout has all colours.
+// A finishing pass of 9 to 11 mm depth throughout has all colours.
 TEST(Legend, DividesTheDepthsThatOccur) {
   std::string job = "Z0,0,0;";
   for (int z = 900; z <= 1100; z += 10) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);

@@ -65,7 +65,8 @@ void draw_stuck(Random& random, LineFaultPlan& plan, Duration job) {
       {Act::Kind::release, at + within(random, std::chrono::milliseconds(5), std::chrono::milliseconds(60'000))});
 }
 
-// None where CTS is stuck for ever: the job then waits until it is aborted.
+// Draws acts of people and of the cable. Draws none if CTS is stuck for ever, because the job then waits until it is
+// aborted.
 void draw_people_and_cable(Random& random, LineFaultPlan& plan, Duration job) {
   if (plan.sticks_forever) return;
   const auto moment = [&] { return Duration(random.between(0, job.count())); };

@@ -1,4 +1,4 @@
-// What one seed of a mill on a bad line draws: the job, how it is sent, the mill, the faults, and what people do.
+// Random choices of one seed of a mill on a bad line: the job, its sending, the mill, the faults, and people's acts.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@
 
 namespace axisgate::rml1 {
 
-// A changed byte cannot be seen from here. It is one of the job's.
+// Fault of one byte of the job. The gateway cannot detect a changed byte.
 enum class ByteFault { none, lost, doubled, flipped };
 
-// What makes a confirmation void.
+// Event before the start that makes a confirmation void.
 enum class BeforeStart { nothing, line_breaks, abort, abort_and_at_once };
 
 struct Act {
@@ -36,24 +36,24 @@ struct Act {
 std::string_view name(Act::Kind kind);
 
 struct LineFaultPlan {
-  std::string body;  // of the job
+  std::string body;  // body of the job
   MillSettings settings;
   simulator::MillSetup mill;
   LineToMill::Setup line;
   ByteFault byte = ByteFault::none;
-  std::size_t byte_at = 0;  // of the job's bytes that arrive
-  int bit = 0;              // which is flipped
-  bool loses_xon = false;   // the first
+  std::size_t byte_at = 0;  // index among the job's bytes that arrive
+  int bit = 0;              // the bit that is flipped
+  bool loses_xon = false;   // loses the first XON
   bool sticks_forever = false;
-  bool keeps_converter = false;  // its bytes arrive after the line broke
+  bool keeps_converter = false;  // the converter's bytes arrive after the line broke
   BeforeStart before_start = BeforeStart::nothing;
-  std::vector<Act> acts;  // in their order
+  std::vector<Act> acts;  // in order of time
 };
 
-// `profile`: of the mill. The same for the same seed.
+// Draws a plan for the mill with this profile. The same seed gives the same plan.
 LineFaultPlan line_fault_plan(std::uint64_t seed, const Profile& profile);
 
-// For people.
+// Returns the plan as text for people.
 std::string text_of(const LineFaultPlan& plan);
 
 }  // namespace axisgate::rml1

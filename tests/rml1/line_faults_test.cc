@@ -1,8 +1,8 @@
-// Seeds: a mill and its controller on a line that loses, doubles and flips bytes, is stuck, loses an XON, and breaks.
+// Seeds of a mill and its controller on a line that loses, doubles and flips bytes, is stuck, loses an XON, and breaks.
 //
-// What holds in every run: what the mill executes is the beginning of the job, as far as no byte was changed, and all
-// of it where the job is FED. After an abort, and after the line was lost, nothing of the job is written, and the abort
-// comes first. What is confirmed is what starts. tests/README.md says more.
+// Requirements of every run: up to the first changed byte the mill executes the beginning of the job, and all of it if
+// the job is FED. After an abort, and after a loss of the line, nothing of the job is written, and the abort is written
+// first. The confirmed job is the one that starts. tests/README.md explains more.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,14 +43,14 @@ TEST_P(MillSeeds, TheMillExecutesTheJobAndNothingElse) {
   }
 }
 
-// More than in the ordinary run: AXISGATE_SEEDS=20000, and this case alone.
+// Runs more seeds than the ordinary run: set AXISGATE_SEEDS=20000 and run this test alone.
 TEST(MoreMillSeeds, Hold) {
   for (int seed = kSeeds; seed < seeds() && !HasFailure(); ++seed) hold(static_cast<std::uint64_t>(seed));
 }
 
 INSTANTIATE_TEST_SUITE_P(Ordinary, MillSeeds, testing::Range(0, kSeeds / kSeedsACase));
 
-// That not all of them end in the same manner, and that each fault occurs.
+// Checks that the seeds end in different outcomes, and that each fault occurs.
 TEST(MillSeedsAll, EachOutcomeAndEachFaultOccurs) {
   std::map<JobState, int> outcomes;
   int changed = 0, stuck = 0, xon_lost = 0, broke = 0, busy = 0;

@@ -1,4 +1,4 @@
-// Machine coordinates of Z (guideline 3-3 !ZM, !ZO), and axes that a machine has or lacks (!ZE).
+// Tests of machine coordinates of Z (guideline 3-3 !ZM, !ZO), and of axes that a machine has or lacks (!ZE).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// Z0 lies 5000 below the top: at -5000 where coordinates grow upward, at 5000 where they grow downward.
+// Returns a mill whose Z0 lies 5000 below the top: at -5000 if coordinates grow upward, at 5000 if they grow downward.
 Profile mill(int up) {
   Profile profile = test_profile();
   profile.up = up;
@@ -58,7 +58,7 @@ TEST(MachineHeight, IgnoresFractions) {
 
 TEST(MachineHeight, WithoutParameterDoesNothing) { EXPECT_THAT(ends(upward("Z0,0,30;!ZM;")), ElementsAre("0 0 30")); }
 
-// The tool stays where it is: at machine coordinate -4900, or 4900.
+// The tool does not move: it stays at machine coordinate -4900, or 4900.
 TEST(Surface, MovesUnderTheTool) {
   const Played up = upward("Z0,0,100;!ZO-4000;");
   EXPECT_THAT(ends(up), ElementsAre("0 0 100"));
@@ -119,14 +119,14 @@ TEST(Axes, ThatAreMissingAreToldOfOnce) {
   EXPECT_THAT(told(found.diagnostics), ElementsAre("warning 0 at 5"));
 }
 
-// 10 degrees a second.
+// The axis turns by 10 degrees per second.
 TEST(RotaryAxis, TurnsByDegrees) {
   EXPECT_THAT(upward("Z1,0,9;!ZEA90;!ZEA90;!ZEA60;").waits, ElementsAre("spin up 2", "turn 9", "turn 3"));
   EXPECT_THAT(upward("Z1,0,9;PR;!ZEA45;!ZEA45;!ZEA-45.5;").waits,
               ElementsAre("spin up 2", "turn 4.5", "turn 4.5", "turn 4.55"));
 }
 
-// A turn is a movement: at the high end it takes longer, as moves do.
+// A turn is a movement: at the high end of the range it takes longer, like a move.
 TEST(RotaryAxis, MayTurnSlower) {
   Profile profile = test_profile();
   profile.acceleration.slower = 0.5;
@@ -138,7 +138,7 @@ TEST(RotaryAxis, MayTurnSlower) {
   EXPECT_NEAR(timeline.slowest_s(), 13.5, 1e-6);
 }
 
-// A9000 is 90 degrees, A90.0 and A90. too.
+// A9000, A90.0 and A90. are all 90 degrees.
 TEST(RotaryAxis, TurnsByHundredthsWhereNoPointIsWritten) {
   Profile profile = test_profile();
   profile.rotary->hundredths = true;

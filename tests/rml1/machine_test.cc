@@ -1,4 +1,4 @@
-// What a command leaves in effect, and where it drives (guideline 3-1 to 3-3, 5-3).
+// Tests of the modes that a command leaves in effect, and of the targets of moves (guideline 3-1 to 3-3, 5-3).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 Played played(const std::string& job) { return play(job, test_profile(), kMidway); }
 
-// Where a three-axis move by 1, 2, -3 goes shows what the command before left in effect.
+// Reports whether `job` leaves relative coordinates in effect, from the end of a three-axis move by 1, 2, -3.
 bool leaves_relative(const std::string& job) {
   const Point before = played(job).final;
   const Point after = played(job + "!ZZ1,2,-3;").final;
@@ -25,12 +25,12 @@ constexpr const char* kStart = "@-100,300;Z10,20,30;";
 
 TEST(Coordinates, AreAbsoluteAtFirst) { EXPECT_FALSE(leaves_relative("!ZM-10;")); }
 
-// With Z at its top, 5000 above Z0 there.
+// Z begins at its top, which is 5000 above Z0.
 TEST(Coordinates, CountFromTheWorkOriginAtFirst) {
   EXPECT_THAT(ends(played("PR;!ZZ7,5,-3;")), ElementsAre("7 5 4997"));
 }
 
-// Cutting is below the surface, which a move may cross.
+// Cutting happens below the surface, which a move can cross.
 TEST(Moves, CutWithThePartBelowTheSurface) {
   const auto part = [](double from_z, double to_z) {
     Move move;
@@ -85,7 +85,7 @@ struct HeightAfter {
 void PrintTo(const HeightAfter& one, std::ostream* out) { *out << one.job; }
 
 // "When a PA or PR command is executed after execution of a group 1 command, tool-up or tool-down operation is
-// performed according to the result of the group 1 command" (5-3), also when Z came between (step 2).
+// performed according to the result of the group 1 command" (5-3), also if Z came between (step 2).
 class ToolAfter : public testing::TestWithParam<HeightAfter> {};
 TEST_P(ToolAfter, GoesToItsHeightWithPaAndPr) {
   const auto& [job, height] = GetParam();
@@ -122,7 +122,7 @@ TEST(Tool, PaAndPrWithoutParametersMoveNothing) {
   EXPECT_THAT(ends(played("Z0,0,50;PA;PR;PA;")), ElementsAre("0 0 50"));
 }
 
-// 3-3 !PZ, 3-1 @: which heights PD and PU go to afterwards.
+// Heights to which PD and PU go after a job (3-3 !PZ, 3-1 @).
 struct HeightsAfter {
   const char* job;
   double z1, z2;
@@ -179,19 +179,19 @@ TEST(Heights, XAndYMoveAtTheTopWhereZ2IsAbove) {
               ElementsAre("0 0 -100", "0 0 5000", "100 0 5000", "100 0 -100", "200 0 -100"));
 }
 
-// 162.6 was seen in a real job. A step is the nearest.
+// 162.6 occurred in a real job. A place is rounded to the nearest step.
 TEST(Places, AreRoundedToTheStep) {
   EXPECT_THAT(ends(played("Z162.6,-162.6,10.4;")), ElementsAre("163 -163 10"));
   EXPECT_THAT(ends(played("@-10,20;Z0,0,20;M0.4,99.9;")), ElementsAre("0 0 20", "0 100 20"));
 }
 
-// 0.4, 0.8, 1.2, 1.6: the first rounds to nothing, the third to where the second was.
+// 0.4, 0.8, 1.2, 1.6: the first rounds to no move, the third to the place of the second.
 TEST(Places, SumsAreNotRounded) {
   EXPECT_THAT(ends(played("PR0.4,0,0.4,0,0.4,0,0.4,0;")), ElementsAre("1 0 5000", "2 0 5000"));
   EXPECT_THAT(ends(played("PR;Z0,0,-0.4;Z0,0,-0.4;!ZEZ-0.4;!ZEZ-0.4;")), ElementsAre("0 0 4999", "0 0 4998"));
 }
 
-// 5000 + 4000 is commanded; 1000 down is 8000, 4000 more is 4000.
+// The command leads to 5000 + 4000; 1000 down is 8000, and 4000 more is 4000.
 TEST(Places, RelativeMotionCountsFromTheCommandedPlace) {
   EXPECT_THAT(ends(played("PR;Z0,0,4000;Z0,0,-1000;")), IsEmpty());
   EXPECT_EQ(text(played("PR;Z0,0,4000;Z0,0,-1000;Z0,0,-4000;").final), "0 0 4000");

@@ -1,5 +1,5 @@
-// Whether a job that is checked for the wrong mill is noticed, and one for the right mill is left alone: jobs as many
-// programs write them, which were written without sight of the rules.
+// Test of warnings about a job for another mill: a check with the wrong mill must warn, a check with the right mill
+// must not. The jobs imitate many programs, and were written without knowledge of the rules.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::vector<MadeJob> made_jobs() {
   std::vector<MadeJob> jobs;
   std::ifstream table(paths::written_jobs() / "jobs.tsv");
   std::string line;
-  std::getline(table, line);  // the names of the columns
+  std::getline(table, line);  // names of the columns
   while (std::getline(table, line)) {
     MadeJob job;
     std::istringstream(line) >> job.file >> job.mill;
@@ -47,8 +47,8 @@ Verdict verdict_on(const MadeJob& job, const Profile& profile, const std::vector
   return warned ? Verdict::warned : Verdict::silent;
 }
 
-// The goals: at most 5 % of the jobs for a mill with another step pass in silence, and at most 2 % are warned about on
-// their own mill.
+// Goals: at most 5 % of the jobs for a mill with another step size cause no warning, and at most 2 % cause a warning on
+// the mill that they were made for.
 TEST(MadeFor, IsNoticedAcrossManyPrograms) {
   const std::vector<MadeJob> jobs = made_jobs();
   ASSERT_EQ(jobs.size(), 60U);
@@ -60,7 +60,7 @@ TEST(MadeFor, IsNoticedAcrossManyPrograms) {
     for (const MadeJob& job : jobs) {
       const bool right = file.stem() == job.mill;
       const auto made_for = load_profile((file.parent_path() / (job.mill + ".toml")).string()).value();
-      if (!right && made_for.step_mm == profile.step_mm) continue;  // the same size there
+      if (!right && made_for.step_mm == profile.step_mm) continue;  // same size on both mills
       const Verdict verdict = verdict_on(job, profile, others);
       wrong += !right;
       refused += !right && verdict == Verdict::refused;

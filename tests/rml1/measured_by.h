@@ -1,4 +1,4 @@
-// What a job with `full` streaming shows of the simulated mill's pace.
+// Pace of the simulated mill, measured from a job with `full` streaming.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace axisgate::rml1 {
 
-// `line`: as the host sees it; its converter is among the settings, too.
+// Returns the measured pace. `line` is the line as the host sees it; its converter must also be in the settings.
 inline std::optional<MeasuredPace> measured_by(const std::string& job, simulator::MillSetup mill, SendSettings settings,
                                                LineToMill::Setup line) {
   const Timeline timeline(job, test_profile(), kMidway);

@@ -43,7 +43,7 @@ class Witness : public ParserListener, public MachineListener {
   void tell(const Instruction& instruction, bool refused) {
     const Row& row = *instruction.row;
     const bool heights = row.operation == Operation::heights;
-    if (refused && !heights) return;  // !ZM, !ZO outside of the travel
+    if (refused && !heights) return;  // !ZM or !ZO outside the travel
     if (instruction.first || row.takes == Takes::axes) played.commands.emplace_back(row.name);
     std::string& line = played.commands.back();
     bool nothing = instruction.count > 0;

@@ -1,4 +1,4 @@
-// An abort that a full buffer may have dropped ends no job: what became of it is for a person to say.
+// Tests of an abort that a full buffer may have dropped. It ends no job: a person must state the outcome.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using enum JobState;
 
 using MillAbortTest = MillControllerTest;
 
-// Its panel may have held it all the time: then the buffer is full with what has been written.
+// The panel may have stopped the mill all the time: the buffer is then full of the bytes written.
 TEST_F(MillAbortTest, WithoutFlowControlAnAbortMayBeDropped) {
   settings_.sending.buffer = 64;
   add(1);

@@ -1,4 +1,4 @@
-// A job that is paused with the tool raised, or was lost, and continues from a place that somebody has chosen.
+// Tests of a job that is paused with the tool raised, or was lost, and continues from a place chosen by a person.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 using enum JobState;
 
-// Of test_profile(): Z rises with 15 mm/s, and its top is at 0. A permitted spindle turns while the tool rises.
+// Lift by test_profile(): Z rises with 15 mm/s, and its top is at 0. A permitted spindle turns while the tool rises.
 constexpr std::string_view kLift = "^PA;!VZ15;!ZM0;!MC0;";
 
 class MillContinuedTest : public MillControllerTest {
@@ -93,7 +93,7 @@ TEST_F(MillContinuedTest, ItsPlanIsCorrectedWhileItWaitsThere) {
   EXPECT_EQ(job(1).parts[0].takes.most, 2s) << "that was another place";
 }
 
-// "V15;VS15;" and "PU1000,0;": the second vector begins with the byte 18.
+// Place of the second vector: "V15;VS15;" and "PU1000,0;" end at byte 18.
 constexpr Place kSecondVector{18, 1, 19};
 
 TEST_F(MillContinuedTest, TheRestOfAnotherJobWaitsAsAnyOther) {
@@ -220,7 +220,7 @@ TEST_F(MillContinuedTest, ALineThatIsLostWhileTheToolRises) {
   EXPECT_EQ(state(1), paused_unknown);
 }
 
-// What a mill does not take, such as one that its panel holds, it has not executed.
+// A mill that takes no bytes, for instance because its panel stops it, has not executed them.
 TEST_F(MillContinuedTest, AMillThatTakesNothingIsNotUp) {
   begin();
   run_for(3s);

@@ -1,4 +1,4 @@
-// A controller of a mill with a line, rights and listeners as a test has them.
+// Fixture of a mill's controller with a line, rights and listeners that a test sets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   void SetUp() override { mill_.link_up(now_); }
   void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
 
-  // Moves of 10 mm at 15 mm/s: 0.7 to 0.9 s each by the profile.
+  // Returns moves of 10 mm at 15 mm/s, 0.7 to 0.9 s each by the profile.
   static std::string vectors(int count) {
     std::string job = "V15;VS15;";
     for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
@@ -87,7 +87,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   TimePoint now_{std::chrono::seconds(1000)};
   MillSettings settings_;
   std::map<JobNumber, JobState> ended_;
-  std::map<JobNumber, std::int64_t> ranks_;  // that are kept
+  std::map<JobNumber, std::int64_t> ranks_;  // ranks that were stored
   std::vector<std::string> said_;
   std::map<JobState, std::string> by_;
   std::uint64_t noted_ = 0, surfaces_ = 0;

@@ -1,4 +1,4 @@
-// The queue of a mill, confirmations at the machine, and what is known when the line is lost.
+// Tests of a mill's queue, of confirmations at the machine, and of the knowledge after a loss of the line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -263,7 +263,7 @@ TEST_F(MillControllerTest, AnAbortThatWaitedWhenTheDaemonEndedIsSent) {
   EXPECT_FALSE(after.abort_waits());
 }
 
-// It may still have been in the host, or in a converter of 512 bytes: 0.53 s at 9600 baud.
+// The abort may still have been in the host, or in a converter of 512 bytes: 0.53 s at 9600 baud.
 TEST_F(MillControllerTest, AnAbortThatTheLineMayHaveLostIsSentAgain) {
   settings_.at_loss = AtLoss::leave;
   MillController mill(profile_, settings_, line_, *this, permission_);
@@ -327,7 +327,7 @@ TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
   EXPECT_THAT(line_.writes, IsEmpty());
 }
 
-// `leave` is about jobs whose line was lost, not about what somebody requested.
+// `leave` applies to jobs whose line was lost, not to an abort that a person requested.
 TEST_F(MillControllerTest, AtLossLeaveSendsAnAbortThatTheRunBeforeCouldNotSend) {
   settings_.at_loss = AtLoss::leave;
   MillController other(profile_, settings_, line_, *this, permission_);
@@ -352,7 +352,7 @@ TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {
   EXPECT_FALSE(mill_.running(now_)->busy);
 }
 
-// All has been written, and CTS is low.
+// All bytes have been written, and CTS is low.
 TEST_F(MillControllerTest, AMillThatKeepsTheLineAtTheEndIsBusyAndNotFed) {
   add(1);
   run_job(1, 2);
@@ -372,7 +372,7 @@ TEST_F(MillControllerTest, WithAClosedLineNothingIsConfirmed) {
   EXPECT_EQ(reason(confirm(1)), Reason::link_down);
 }
 
-// Prologue ";^DF;", so five bytes are none of the job's.
+// The prologue is ";^DF;", so five bytes do not belong to the job.
 TEST(PreparedJobTest, BytesOfTheTextAndOfTheJob) {
   const Profile profile = test_profile();
   const PreparedJob job("PU1000,0;", "d", profile, std::nullopt, {});

@@ -1,4 +1,4 @@
-// Jobs of several parts with tool changes between, and what a job leaves for those after it.
+// Tests of jobs of several parts with tool changes between them, and of the state that a job leaves for later jobs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using enum JobState;
 
-// 24, 12 and 14 bytes. By the profile some seconds each.
+// Parts of 24, 12 and 14 bytes, each lasting a few seconds by the profile.
 constexpr std::string_view kPartBytes[] = {"V15;VS15;PU1000,0;PU0,0;", "V15;PU500,0;", "V15;PU0,500;;;"};
-// Of test_profile(): Z rises with 15 mm/s, and its top is at 0.
+// Prologue and epilogue by test_profile(): Z rises with 15 mm/s, and its top is at 0.
 constexpr std::string_view kPrologueBytes = ";^DF;", kEpilogueBytes = ";^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;";
 
 class MillPartsTest : public testing::Test, protected MillEvents {
@@ -70,7 +70,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
     ASSERT_TRUE(confirm(number));
     ASSERT_TRUE(start(number, part));
   }
-  // Until nothing runs; two minutes at most.
+  // Runs until no job runs, for at most two minutes.
   void run_to_end() {
     for (const TimePoint end = now_ + 120s; now_ < end && mill_.running_job() != 0; now_ += 1ms) {
       line_.run_to(now_);

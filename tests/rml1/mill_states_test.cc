@@ -1,5 +1,5 @@
-// The state machines of a mill: every state with every event, typed from the tables in device/rml1/mill/README.md and
-// device/rml1/sending/README.md; and what an event does that a table does not have.
+// Tests of a mill's state machines: every state with every event, typed from the tables in device/rml1/mill/README.md
+// and device/rml1/sending/README.md, and the effect of an event that a table lacks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
   EXPECT_EQ(abort.phase(), AbortPhase::leaves);
 }
 
-// Each invariant is seen when it does not hold.
+// Each violated invariant must be reported.
 TEST(JobQueue, ItsInvariantsSayWhatDoesNotHold) {
   Reported reported;
   Silent silent;
@@ -139,7 +139,7 @@ TEST(JobQueue, ItsInvariantsSayWhatDoesNotHold) {
   EXPECT_THAT(broken({{.number = 1}, {.number = 2, .state = JobState::fed}}), HasSubstr("order of is_before()"));
 }
 
-// Nobody knows then what the mill does.
+// An internal error leaves the mill's activity unknown.
 class InternalErrorAtAMill : public MillControllerTest {
  protected:
   void internal_error(std::string_view what, TimePoint) override { errors_.emplace_back(what); }

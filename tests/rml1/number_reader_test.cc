@@ -1,4 +1,4 @@
-// One parameter (guideline 2-3, 2-5).
+// Tests of one parameter (guideline 2-3, 2-5).
 #include "device/rml1/language/number_reader.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// What is left of the text, once the number has ended.
+// Reads a number and returns the rest of the text.
 std::string read(NumberReader& reader, const std::string& text) {
   EXPECT_TRUE(begins_number(text.at(0)));
   reader.begin(text[0]);

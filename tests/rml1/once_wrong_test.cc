@@ -1,4 +1,4 @@
-// What was wrong once, each with the smallest job that showed it.
+// Regression tests of fixed faults, each with the smallest job that showed the fault.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 // "If X and Y movement is necessary thereafter, the movement is performed at the maximum height", and "PU operates at a
-// particular specified speed" (3-2 PU): 15 mm/s here, not V.
+// particular specified speed" (3-2 PU): 15 mm/s here, not the speed of V.
 TEST(OnceWrong, TravelAtTheTopWentAtTheSpeedOfZ) {
   for (const char* job : {"V1;@-9,9000;PU100,0;", "V1;@-9,9000;M100,0;", "V1;@-9,9000;PA100,0;"}) {
     const Played found = play(job, test_profile(), kMidway);
@@ -24,14 +24,14 @@ TEST(OnceWrong, TravelAtTheTopWentAtTheSpeedOfZ) {
   EXPECT_EQ(play("V1;F7;@-1000;!ZO-6000;PD100,0;", test_profile(), kMidway).moves.back().speed, 7);
 }
 
-// Nobody knows there where Z0 lies.
+// Z0 is unknown without an origin.
 TEST(OnceWrong, RelativeHeightsWithoutAnOriginWereErrors) {
   for (const char* job : {"PD;PR;!ZM50;PU;", "PD;PR;!ZO0;PU;"}) {
     EXPECT_THAT(told(play(job, test_profile()).diagnostics), IsEmpty()) << job;
   }
 }
 
-// "ends operation of the command now being executed" (4-2), half way out of the area at Y = 150.
+// ESC.K "ends operation of the command now being executed" (4-2), half the distance out of the area, at Y = 150.
 TEST(OnceWrong, QuitLeftTheCommandedPlaceWhereItWas) {
   EXPECT_EQ(text(play("Z0,0,0;Z-20000,300,0;\x1B.K!ZEX100;", test_profile(), kMidway).final), "100 150 0");
 }
@@ -49,7 +49,7 @@ TEST(OnceWrong, ATurnAloneDidNotStartTheSpindle) {
   EXPECT_THAT(play("!ZEA90;", test_profile(), kMidway).waits, ElementsAre("spin up 2", "turn 9"));
 }
 
-// 297 bytes at 300 baud come in 9.9 s.
+// 297 bytes take 9.9 s at 300 baud.
 TEST(OnceWrong, SpinUpDidNotWaitForItsCommand) {
   Profile profile = test_profile();
   profile.baud = 300;
@@ -60,7 +60,7 @@ TEST(OnceWrong, SpinUpDidNotWaitForItsCommand) {
   EXPECT_NEAR(late.seconds_high - early.seconds_high, 9.9, 1e-6);
 }
 
-// Ten mm left of the home corner: the tool begins at the corner, and so does what is commanded.
+// The origin is 10 mm left of the home corner: both tool and commanded place begin at the corner.
 TEST(OnceWrong, AnOriginOutsideMovedNothing) {
   EXPECT_EQ(text(play("!ZEY100;", test_profile(), Origin{-10, 5, 50}).final), "1000 100 5000");
   EXPECT_EQ(text(play("PD;", test_profile(), Origin{-10, 5, 50}).final), "1000 0 -100");
@@ -83,12 +83,12 @@ TEST(OnceWrong, GCodeDependedOnTheSplit) {
   }
 }
 
-// 150 mm wide, wherever the tool was before.
+// The cuts are 150 mm wide, regardless of the tool's place before.
 TEST(OnceWrong, TheBeginningCountedAsSize) {
   EXPECT_THAT(told_but_z1(checked("PU50000,0;PD65000,0;PU50000,0;", test_profile())->diagnostics().kept()), IsEmpty());
 }
 
-// The tool is taken out of the groove.
+// A lift takes the tool out of the groove, and cuts nothing.
 TEST(OnceWrong, ALiftWithTheSpindleStoppedWasCutting) {
   EXPECT_THAT(told_but_z1(checked("PU0,0;PD1000,0;!MC0;PU;", test_profile())->diagnostics().kept()), IsEmpty());
 }
@@ -105,7 +105,7 @@ TEST(OnceWrong, AnEscapeInGroupsOfAxesWasToldAtTheNextByte) {
   EXPECT_THAT(told(play("!ZE X100 \x1BY100;", test_profile(), kMidway).diagnostics), ElementsAre("error 3 at 9"));
 }
 
-// 6050 steps of 0.01 mm are its whole travel.
+// 6050 steps of 0.01 mm are the whole travel of the other machine.
 TEST(OnceWrong, ALiftByExtensionAxesWasNotJudged) {
   Profile profile = test_profile();
   profile.step_mm = 0.025;
@@ -115,18 +115,18 @@ TEST(OnceWrong, ALiftByExtensionAxesWasNotJudged) {
   }
 }
 
-// !ZO alone sets what the profile has.
+// !ZO without a number sets the height of the profile.
 TEST(OnceWrong, AHeightOfTheProfileWasBlamedOnAnEarlierNumber) {
   Profile profile = test_profile();
   profile.default_z0 = 100;
   EXPECT_THAT(told(play("PU0,0;!ZO;", profile, kMidway).diagnostics), ElementsAre("error 3 at 6"));
 }
 
-// Z travels 6050 steps, and nobody knows where Z0 lies; but it lies on the travel.
+// Z travels 6050 steps. Z0 is unknown, but lies within the travel.
 TEST(OnceWrong, ARelativeSurfaceWithoutAnOriginHadNoEnd) {
   const auto told_of = [](const char* job) { return told(play(job, test_profile()).diagnostics); };
   EXPECT_THAT(told_of("PR;!ZO6051;"), ElementsAre("error 3 at 6"));
-  // From 100 below Z0 a whole travel down: only from the top to the bottom.
+  // From 100 below Z0 down by a whole travel is possible only from the top to the bottom.
   EXPECT_THAT(told_of("PD;PR;!ZO-5950;"), IsEmpty());
   EXPECT_THAT(told_of("PD;PR;!ZO-5950;!ZO-5951;"), ElementsAre("error 3 at 18"));
   for (const char* job : {"PD;PR;!ZO-5950;", "PD;PR;!ZO-6000;PD;", "PR;!ZO0;!ZO-100;PD9,9;"}) {
@@ -144,7 +144,7 @@ TEST(OnceWrong, TheTopWasRoundedDown) {
   EXPECT_NEAR(play("!ZM-10;", profile, origin).final.z, 483.2, 1e-9);
 }
 
-// A hole is drilled by PD alone. Z0 lies 10 steps above the bottom.
+// PD alone drills a hole. Z0 lies 10 steps above the bottom.
 TEST(OnceWrong, AHoleBelowTheBottomWasSilent) {
   const Profile profile = test_profile();
   const Origin origin{10, 10, profile.z_mm - 10 * profile.step_mm};
@@ -158,13 +158,13 @@ TEST(OnceWrong, ACutFromTheBeginningHadNoSize) {
   EXPECT_THAT(told_but_z1(checked("PD65000,0;PU;", test_profile())->diagnostics().kept()), ElementsAre("error 0 at 0"));
 }
 
-// Where the origin is known, it is known that the way to a parking place is not driven beyond the edge.
+// With a known origin, it is also known that the move to a parking place is not driven beyond the edge.
 TEST(OnceWrong, ParkingOutsideWasLargerThanTheMachine) {
   const auto check = checked("PU0,0;PD1000,0;PU65000,0;", test_profile(), {kMidway, {}, {}});
   EXPECT_THAT(told_but_z1(check->diagnostics().kept()), ElementsAre("note 0 at 15"));
 }
 
-// PU performs "only a tool-up operation" (3-2): the tool waits where the path left, at X 300, Y 60.
+// PU performs "only a tool-up operation" (3-2): the tool waits where the path left the area, at X 300, Y 60.
 TEST(OnceWrong, ALiftOutsideWentToTheNearestEdge) {
   Profile profile = test_profile();
   profile.holds_flat_commands = true;
@@ -173,7 +173,7 @@ TEST(OnceWrong, ALiftOutsideWentToTheNearestEdge) {
   EXPECT_EQ(text(found.final), "300 60 14");
 }
 
-// 200 steps below the top is the bottom; the sum is 0.4 steps lower, and its step is not.
+// The bottom is 200 steps below the top. The sum is 0.4 steps lower, but rounds to the step of the bottom.
 TEST(OnceWrong, AHeightWhoseStepIsReachedWasAnError) {
   Profile profile = test_profile();
   profile.z_mm = 2;
@@ -186,7 +186,7 @@ TEST(OnceWrong, ANameBehindACircumflexWasToldInPart) {
   EXPECT_THAT(play("^PX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by \"PX\""));
 }
 
-// From the top, 5000 or 6050 steps above Z0, down to Z2.
+// The range goes from the top, 5000 or 6050 steps above Z0, down to Z2.
 TEST(OnceWrong, TheUpperBoundDependedOnTheOrigin) {
   for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
     EXPECT_EQ(to_string(checked("@-9,200;PU0,0;PD9,9;PU;", test_profile(), {origin, {}, {}})->summary().bounds.z),
@@ -194,7 +194,7 @@ TEST(OnceWrong, TheUpperBoundDependedOnTheOrigin) {
   }
 }
 
-// A speed that is limited by an axis is the limit but for the last digits.
+// A speed limited by an axis equals the limit except for the last digits.
 TEST(OnceWrong, OneSpeedWasShownAsARange) {
   EXPECT_EQ(to_string(Reach{true, 15, 15.000000000001}), "15");
   EXPECT_EQ(to_string(Reach{true, 2, 15}), "2 to 15");

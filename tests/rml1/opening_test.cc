@@ -1,4 +1,4 @@
-// What a file is, by its first bytes: a job, or one line that says what else.
+// Tests of the kind of a file by its first bytes: a job, or one line that names the other kind.
 #include "device/rml1/check/opening.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ std::string doubled(const std::string& text, bool zero_first) {
   return wide;
 }
 
-// As the formats' specifications say; a Gerber file begins with a comment or an extended command.
+// File beginnings by the formats' specifications. A Gerber file begins with a comment or an extended command.
 const Other kOthers[] = {
     {"%PDF-1.7\n%\xE2\xE3\n", "a PDF document"},
     {"\x89PNG\r\n\x1A\n\0\0"s, "a PNG picture"},
@@ -72,7 +72,7 @@ TEST(OtherFile, IsNotWhatMayBeAJob) {
   }
 }
 
-// Each byte of it would be an error 1 (1-1); the job behind it is read.
+// Each byte of the mark would otherwise be an error 1 (1-1). The job after the mark is read.
 TEST(ByteOrderMark, IsOneError) {
   const auto check = checked("\xEF\xBB\xBF@-9,9;PD;PU;\nQ;", test_profile());
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("error 1 at 0", "error 1 at 16"));
@@ -123,7 +123,7 @@ TEST(GCode, IsNotToldWithoutAWordOfItsOwn) {
   }
 }
 
-// The text that is held until the kind is known has a limit.
+// The text kept until the kind is known has a limit.
 TEST(GCode, IsSoughtIn64KiB) {
   const std::string comment = ";" + std::string(65532, 'a') + "\n";
   EXPECT_TRUE(checked(comment + "G0", test_profile())->is_other_file());

@@ -1,4 +1,4 @@
-// The order of a mill's queue: who may be before whom, and that it outlives a restart.
+// Tests of the order of a mill's queue: who may move a job before which others, and that the order survives a restart.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ class MillQueueOrder : public MillControllerTest {
   Result<void> first(JobNumber number, Overtaken overtaken = Overtaken::all) {
     return mill_.move_first(number, overtaken, "unix root", now_);
   }
-  // As the next run of the daemon has it, of what is kept of each job: neither its place nor its confirmation.
+  // Returns the order in the next run of the daemon, from the stored facts of each job. These include neither its place
+  // nor its confirmation.
   Numbers order_after_restart(std::uint64_t seed = 0) {
     std::vector<Job> jobs = mill_.jobs();
     std::shuffle(jobs.begin(), jobs.end(), std::mt19937_64(seed));
@@ -111,7 +112,7 @@ TEST_F(MillQueueOrder, WhatWasBegunIsNeitherMovedNorOvertaken) {
   EXPECT_THAT(order_after_restart(), ElementsAre(1, 2, 3));
 }
 
-// Its rank is kept by the next run only if the daemon was not killed before.
+// The next run knows the job's rank only if the daemon was not killed before it was stored.
 TEST_F(MillQueueOrder, WhatWasBegunIsBeforeTheOthersWhateverItsRank) {
   for (const JobState begun : {tool_change, fed, paused_unknown}) {
     MillController after(profile_, settings_, line_, *this, permission_);
@@ -174,7 +175,7 @@ TEST_F(MillQueueOrder, AConfirmedJobDoesNotExpireAndAVoidConfirmationCountsAnew)
   EXPECT_EQ(state(1), expired);
 }
 
-// Its workpiece may be in the mill.
+// The job's workpiece may be in the mill.
 TEST_F(MillQueueOrder, AJobThatWasBegunDoesNotExpire) {
   add(1);
   run_job(1, 200);
@@ -196,8 +197,8 @@ TEST_F(MillQueueOrder, AJobOfARunBeforeExpiresByTheTimeItWasSent) {
   EXPECT_EQ(after.jobs().front().number, 2u);
 }
 
-// Who moves, who sends, who confirms and who cancels is drawn. After each: of those moved for its owner the others have
-// kept their places; what is confirmed is first; and a restart has the same order, of the ranks that are kept.
+// Draws who moves, sends, confirms and cancels jobs. After each act: if a job was moved for its owner, all others have
+// kept their places; a confirmed job is first; and a restart has the same order from the stored ranks.
 class RandomMillQueue : public MillQueueOrder {
  protected:
   void run(std::uint64_t seed) {

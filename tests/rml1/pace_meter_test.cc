@@ -1,4 +1,4 @@
-// The pace of a mill, measured from a line that it stops: by hand, of the simulated mill, and what it is good for.
+// Tests of a mill's pace, measured from a line that the mill stops: by hand, with the simulated mill, and in use.
 #include "device/rml1/sending/pace_meter.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ using std::chrono::seconds;
 
 class PaceMeterTest : public testing::Test {
  protected:
-  // 10 mm at 10 mm/s each: a second. Command n ends at 9 + 10 n.
+  // Returns moves of 10 mm at 10 mm/s, a second each. Command n ends at byte 9 + 10 n.
   static std::string a_second_each(int count) {
     std::string job = "!MC0;V10;";
     for (int n = 1; n <= count; ++n) job += n % 2 == 1 ? "Z1000,0,0;" : "Z2000,0,0;";
@@ -41,7 +41,8 @@ class PaceMeterTest : public testing::Test {
   PaceMeter meter_{timeline_, 20};
 };
 
-// Command 8 may be under way at the first stop, and 10 may have ended by then. At the second, 108 may be under way.
+// At the first stop, command 8 may be in progress, or command 10 may have ended. At the second, command 108 may be in
+// progress.
 TEST_F(PaceMeterTest, IsBetweenWhatWasAndWhatMayHaveBeenExecuted) {
   EXPECT_FALSE(meter_.pace());
   meter_.stopped(109, at(0));
@@ -51,7 +52,8 @@ TEST_F(PaceMeterTest, IsBetweenWhatWasAndWhatMayHaveBeenExecuted) {
   expect_range(120.0 / 103, 120.0 / 97);  // commands 8 to 110, and 11 to 107
 }
 
-// It begins where the tool happens to be: with 48 bytes the mill may still execute it, with 49 it has begun the second.
+// The first command begins at an unknown place of the tool. With 48 bytes the mill may still execute it, with 49 the
+// mill has begun the second command.
 TEST_F(PaceMeterTest, TheFirstCommandIsNotCounted) {
   meter_.stopped(48, at(0));
   meter_.stopped(49, at(60));
@@ -59,7 +61,7 @@ TEST_F(PaceMeterTest, TheFirstCommandIsNotCounted) {
   expect_range(120.0 / 103, 120.0 / 97);  // commands 2 to 104, and 5 to 101
 }
 
-// Commands 11 to 27, or 8 to 30.
+// Commands 11 to 27, or 8 to 30: too few to measure.
 TEST_F(PaceMeterTest, SaysNothingOfAShortJob) {
   meter_.stopped(109, at(0));
   meter_.stopped(309, at(20));
@@ -87,7 +89,7 @@ TEST(PaceMeterSlack, IsATenthMoreThanWasMeasuredAndAtLeastOne) {
   EXPECT_EQ(with_pace({.slack = 1.4}, MeasuredPace{1, 1.1}).slack, 1.4) << "as it is configured";
 }
 
-// As slow as the high end of the profile, and so many percent slower.
+// Returns a mill that is slower than the high end of the profile by `percent`.
 simulator::MillSetup slower_mill(double percent, Flow flow) {
   simulator::MillSetup mill = simulator::with_options({{"acceleration", "worst"}});
   mill.slower_percent = percent;
@@ -132,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(OfAMill, MeasuredMill,
                                          Measured{Flow::rts, 128, 20}, Measured{Flow::rts, 0, 100},
                                          Measured{Flow::xon, 0, 20}, Measured{Flow::xon, 128, 20}));
 
-// A mill that is faster than its line never stops it.
+// A mill that is faster than its line never stops the line.
 TEST(MeasuredMill, NothingIsMeasuredWhereTheLineIsTheSlowerOne) {
   simulator::MillSetup mill = simulator::with_options({{"acceleration", "none"}});
   mill.flow = Flow::rts;
@@ -149,7 +151,7 @@ TEST(MeasuredMill, PacedStreamingNeverShowsThePace) {
   EXPECT_FALSE(bench.sender().measured_pace());
 }
 
-// How long the mill takes with `paced` streaming.
+// Returns the time that the mill takes with `paced` streaming.
 double paced_seconds(const std::string& job, const simulator::MillSetup& mill, SendSettings settings) {
   simulator::MillSetup setup = mill;
   setup.profile = test_profile();
@@ -183,7 +185,7 @@ class KeptPace : public MillControllerTest {
     }
   }
 
-  // The mill takes nothing for a minute when it has 300 bytes, and when it has 1500.
+  // Runs the job to FED. The mill takes no bytes for a minute after 300 bytes, and again after 1500.
   void run_to_fed(MillController& mill, JobNumber number, int count) {
     mill.add({.number = number, .name = "part.rml", .owner = "unix anna", .setup = setup()}, now_);
     ASSERT_TRUE(mill.confirm(number, setup(), "unix bert", now_));

@@ -1,4 +1,4 @@
-// When a mill of a given pace has executed what it was sent.
+// Tests of the time at which a mill of a given pace has executed the bytes sent to it.
 #include "device/rml1/sending/pace.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ class PaceTest : public testing::Test {
  protected:
   static TimePoint at(int ms) { return TimePoint{} + milliseconds(ms); }
 
-  // 10 mm at 10 mm/s each: a second. The commands end at 9, 19, 26, 36 and 43.
+  // Moves of 10 mm at 10 mm/s, a second each. The commands end at bytes 9, 19, 26, 36 and 43.
   const std::string job_ = "!MC0;V10;Z1000,0,0;Z0,0,0;Z1000,0,0;Z0,0,0;";
   const Profile profile_ = measured_profile();
   const Timeline timeline_{job_, profile_, kAtHome};

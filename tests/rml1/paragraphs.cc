@@ -10,7 +10,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// A function: fixtures are read before main().
+// Returns the folder. A function, not a constant, because fixtures are read before main().
 std::filesystem::path folder() { return paths::in_project("tests/rml1"); }
 
 void read(const std::filesystem::path& path, std::vector<Paragraph>& found) {

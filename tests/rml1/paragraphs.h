@@ -1,4 +1,4 @@
-// Fixtures of text: paragraphs of lines, each a mark, a blank and what it says. A line that begins with # is a comment.
+// Text fixtures: paragraphs of lines, each a mark, a blank and the content. A line that begins with # is a comment.
 #pragma once
 
 #include <ostream>
@@ -17,10 +17,10 @@ struct Paragraph {
 
 inline void PrintTo(const Paragraph& paragraph, std::ostream* out) { *out << paragraph.where; }
 
-// Of a file, or of each file of a folder, below tests/rml1.
+// Reads the paragraphs of a file, or of each file of a folder, below tests/rml1.
 std::vector<Paragraph> paragraphs(const std::string& path);
 
-// \r \n \t \e \s \\ \xNN
+// Replaces the escapes \r \n \t \e \s \\ \xNN by their characters.
 std::string unescaped(const std::string& text);
 
 }  // namespace axisgate::rml1

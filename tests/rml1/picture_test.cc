@@ -1,4 +1,4 @@
-// The picture of a job as a file: what the title may hold, what of it is done, and whether it was written.
+// Tests of the picture of a job as a file: the text of the title, and the part of the job already done.
 #include "device/rml1/picture/picture.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-// Two lines that are cut, 10 and 20 mm long, drawn under that title.
+// A picture with the given title of two cut lines, 10 and 20 mm long.
 class Drawn {
  public:
   explicit Drawn(const std::string& title, const PlaceRange& executed = {}) : strokes_(executed) {
@@ -57,7 +57,7 @@ std::vector<Strokes::Done> done_of(const Picture& picture) {
   return all;
 }
 
-// 14.1 mm along and across, 1 mm of the tool's way down to Z1 of -100 steps: test_profile().
+// The tool travels 14.1 mm along and across, and 1 mm down to Z1 of -100 steps: test_profile().
 TEST(WhatRemains, IsAllByDefault) {
   const Drawn drawn("job");
   EXPECT_THAT(done_of(drawn.picture()), Each(Strokes::Done::no));
@@ -85,7 +85,7 @@ TEST(WhatRemains, OfARangeIsPerhapsDone) {
   EXPECT_THAT(to_svg(drawn.picture()), HasSubstr("class=\"perhaps\""));
 }
 
-// A set of a list counts by where it begins itself.
+// Each set of a list counts by the place where it begins.
 TEST(WhatRemains, OfAListOfCoordinates) {
   const Profile profile = test_profile();
   Strokes strokes({{0, 1, 13}, {0, 1, 13}});

@@ -1,4 +1,4 @@
-// A job in the writes in which it is sent.
+// The writes in which a job is sent.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Lines and columns within a long text.
+// Tests of lines and columns within a long text.
 #include "device/rml1/mill/place_index.h"
 
 #include <gtest/gtest.h>

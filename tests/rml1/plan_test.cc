@@ -1,4 +1,5 @@
-// What is computed of a job before it is sent: its window, and how long what runs on takes.
+// Tests of the figures computed before a job is sent: its window, and the duration of commands that run on after an
+// abort.
 #include "device/rml1/sending/plan.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@
 namespace axisgate::rml1::plan_test {
 namespace {
 
-// What a mill has no room for is lost where nothing holds its host.
+// Bytes for which a mill has no room are lost if flow control does not stop its host.
 TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
   std::string job = "^PA;V15;VS15;";
   for (int i = 0; i < 400; ++i) job += i % 21 == 0 ? "PU4000,0000;PU0,0;" : "PU0008,0000;";
@@ -23,7 +24,8 @@ TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
   EXPECT_EQ(plan_of(job, timeline, {.slack = 1, .buffer = 100}).window, 100u);
 }
 
-// Without what its bytes take on the line: ten bits each, of 64 bytes. The mill needs no time to accelerate.
+// Returns the longest duration after an abort, less the time of 64 bytes on the line, ten bits each. The mill needs no
+// time to accelerate.
 double longest_s(const std::string& job, double slack = 1) {
   Profile profile = test_profile();
   profile.acceleration = {.best = 1e7, .worst = 1e7, .slower = 0};
@@ -31,7 +33,7 @@ double longest_s(const std::string& job, double slack = 1) {
   return std::chrono::duration<double>(plan.run_on.longest).count() - 640 / 9600.0;
 }
 
-// 10 mm at 15 mm/s each, by commands of nine and six bytes by turns: nine of them end within 64 bytes.
+// 10 mm at 15 mm/s each, by commands of nine and six bytes in turn: nine of them end within 64 bytes.
 TEST(Plan, TheTimeOfWhatRunsOn) {
   std::string job = "!MC0;^PA;V15;VS15;";
   for (int i = 0; i < 100; ++i) job += "PU1000,0;PU0,0;";

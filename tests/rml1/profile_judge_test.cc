@@ -1,4 +1,4 @@
-// Whether a job was made for another machine: lifts, speeds, raster, and what the file says of itself.
+// Tests of the clues that a job was made for another machine: lifts, speeds, raster, and the file's own header.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<std::string> texts(const Check& check) {
   return found;
 }
 
-// 60.5 mm are 2420 steps of 0.025 mm, and 6050 here.
+// 60.5 mm are 2420 steps of 0.025 mm, and 6050 on the test mill.
 TEST(Lift, OfAnotherMachine) {
   const auto check = with_others("Z0,0,0;PR;Z0,0,2420;Z0,0,-2420,0,0,2420;PA;");
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("warning 0 at 10"));
@@ -37,8 +37,8 @@ TEST(Lift, OfAnotherMachine) {
 // 135 mm are 13500 steps of the same length.
 TEST(Lift, OfAMachineOfTheSameStepIsNone) { EXPECT_THAT(texts(*with_others("Z0,0,0;PR;Z0,0,13500;PA;")), IsEmpty()); }
 
-// "When the value of the parameter is the model's capacity or higher, the model's maximum speed is used" (3-1 F). Here
-// it is 15 mm/s for both.
+// "When the value of the parameter is the model's capacity or higher, the model's maximum speed is used" (3-1 F). Both
+// maximum speeds are 15 mm/s here.
 TEST(HighestSpeed, IsExceeded) {
   for (const char* job : {"F16.7;", "VS16.7;", "V16.7;", "!VZ16.7;"}) {
     const auto check = with_others(job);
@@ -57,7 +57,7 @@ TEST(HighestSpeed, IsThatOfAnotherMachine) {
   EXPECT_EQ(check->speed_not_reached(), 70);
 }
 
-// Multiples of 40 steps: whole millimetres of 0.025 mm, and 0.4 mm here.
+// Multiples of 40 steps are whole millimetres with steps of 0.025 mm, and multiples of 0.4 mm here.
 TEST(Raster, OfAnotherUnit) {
   const std::string job = "@-9,9;PU40,80;PU120,160;PU200,240;PU280,320;";
   const auto check = with_others(job);
@@ -72,7 +72,7 @@ TEST(Raster, NeedsEightCoordinates) {
   EXPECT_THAT(texts(*with_others("@-9,9;PU40,80;PU120,160;PU200,240;PU280,40;")), IsEmpty());
 }
 
-// 20 steps are 0.2 mm here, and 0.5 mm of 0.025 mm: both are usual.
+// 20 steps are 0.2 mm here, and 0.5 mm with steps of 0.025 mm: both are common.
 TEST(Raster, ThatFitsBothUnitsIsNone) {
   EXPECT_THAT(texts(*with_others("@-9,9;PU20,40;PU60,80;PU100,120;PU140,160;")), IsEmpty());
 }
@@ -84,7 +84,7 @@ TEST(Header, NamesAnotherMachine) {
   EXPECT_THAT(texts(*with_others("; MDX-20 or test mill")), Not(Contains(HasSubstr("made for"))));
 }
 
-// A cut-out of 1.7 mm on a machine with steps of 0.01 mm, where the tool is lifted by 2 mm.
+// Returns a cut-out of 1.7 mm for a machine with steps of 0.01 mm that lifts the tool by 2 mm.
 std::string cut_out(int rounds) {
   std::string job = "PA;VS4;!VZ4;!PZ-170,200;!MC1;PU0,0;";
   for (int i = 0; i < rounds; ++i) job += "PD0,0,3800,0,3800,3000,0,3000,0,0;";
@@ -108,7 +108,7 @@ TEST(MadeFor, IsShownByDepthsAndLifts) {
   EXPECT_THAT(texts(*with_others(cut_out(3), coarse_profile())), Not(Contains(HasSubstr("made for")))) << "a trial";
 }
 
-// The sender's word goes before the clues in the job.
+// The sender's statement takes precedence over the clues in the job.
 TEST(MadeFor, IsSaid) {
   const auto said = [](const Profile& profile, std::string made_for) {
     return texts(*checked(cut_out(5), profile,

@@ -1,4 +1,4 @@
-// A machine as its file describes it: each key, and what is wrong with it at which line.
+// Tests of machine profiles in files: each key, and the line of each error.
 #include "device/rml1/machine/profile.h"
 
 #include <fmt/format.h>
@@ -71,8 +71,8 @@ const std::vector<std::string> kLines = {
 std::string key_of(const std::string& line) { return line.substr(0, line.find(' ')); }
 
 struct Found {
-  std::size_t line = 0;     // from 1
-  std::size_t section = 1;  // where its table begins
+  std::size_t line = 0;     // counted from 1
+  std::size_t section = 1;  // line at which its table begins
   std::string key;          // "area.x_mm"
 };
 
@@ -97,7 +97,7 @@ const Found& where(const std::string& key) {
   return *std::find_if(kKeys.begin(), kKeys.end(), [&](const Found& one) { return one.key == key; });
 }
 
-// Line `number` reads otherwise.
+// Returns the file with another text in line `number`.
 std::string changed(std::size_t number, const std::string& line) {
   std::string text;
   for (std::size_t index = 0; index < kLines.size(); ++index) {
@@ -112,7 +112,7 @@ std::string with(const std::string& key, const std::string& value) {
 
 Configured<Profile> parsed(const std::string& text) { return parse_profile(text, "mill.toml"); }
 
-// "17 speed.cutting_minimum".
+// Returns errors as text: "17 speed.cutting_minimum".
 std::vector<std::string> errors(const std::string& text) {
   std::vector<std::string> found;
   const auto profile = parsed(text);
@@ -242,7 +242,7 @@ TEST(Profile, TellsOfEachValueOutOfRange) {
           << one.key << " = " << value;
     }
   }
-  // Every key but the name has been among them.
+  // All keys except the name have been tested.
   EXPECT_EQ(all.size() + 1, keys().size());
 }
 
@@ -289,7 +289,7 @@ TEST(Profile, TellsAllErrorsInTheOrderOfTheLines) {
   EXPECT_THAT(errors(text), ElementsAre("2 step_mm", "4 area.x_mm", "35 line.baud"));
 }
 
-// The range that a wrong end would give is no second error.
+// A wrong limit is one error: the range that it would give causes no second one.
 TEST(Profile, AWrongSpeedIsOneError) {
   EXPECT_THAT(errors(with("speed.cutting_maximum", "0")), ElementsAre("18 speed.cutting_maximum"));
 }
@@ -330,7 +330,7 @@ TEST(Mills, AllLoad) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("MDX-15", "MDX-20", "MDX-40", "MDX-50", "MDX-540", "SRM-20"));
 }
 
-// Their comments offer more keys: who takes the comment sign away has a profile that loads.
+// The shipped files offer more keys in comments: a profile with a comment sign removed must load.
 TEST(Mills, LoadWithWhatTheirCommentsOffer) {
   std::size_t offered = 0;
   for (const auto& entry : std::filesystem::directory_iterator(mills())) {
@@ -361,7 +361,7 @@ TEST(Mills, Mdx15IsAsItsFileSays) {
   EXPECT_FALSE(mill->holds_flat_commands);
 }
 
-// "makes 700 rpm a stage".
+// The source says "makes 700 rpm a stage".
 TEST(Mills, Mdx50HasStagesOf700) {
   const auto mill = load_profile((mills() / "mdx-50.toml").string());
   ASSERT_EQ(problems(mill), "");

@@ -1,4 +1,4 @@
-// Errors show the bytes that they are about.
+// Tests that errors quote the bytes that they refer to.
 #include "device/rml1/language/quoted.h"
 
 #include <gmock/gmock.h>

@@ -11,14 +11,14 @@ std::size_t below(std::mt19937& random, std::size_t limit) {
   return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
 }
 
-// 0.0 to 19.9 mm/s.
+// Returns a command for a speed from 0.0 to 19.9 mm/s.
 std::string speed_command(std::mt19937& random) {
   constexpr std::array kNames = {"F", "V", "VS", "!VZ"};
   const auto tenths = below(random, 200);
   return fmt::format("{}{}.{}", kNames.at(below(random, kNames.size())), tenths / 10, tenths % 10);
 }
 
-// Small angles, so that turning is not nearly all of a job's time. U: an axis that no profile has.
+// Returns a turn by a small angle, so that turns do not dominate a job's time. U is an axis that no profile has.
 std::string turn_command(std::mt19937& random) {
   const int degrees = std::uniform_int_distribution(-90, 90)(random);
   return fmt::format("!ZE{}{}", below(random, 4) == 0 ? "U" : "A", degrees);

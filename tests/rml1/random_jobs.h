@@ -1,4 +1,4 @@
-// Jobs of commands and numbers as they may come, some of them in error.
+// Random jobs of commands and numbers, some with errors.
 #pragma once
 
 #include <random>
@@ -6,8 +6,8 @@
 
 namespace axisgate::rml1 {
 
-// Up to twelve commands. Only X and Y have fractions, no sum of which is half a step: that may be rounded either way,
-// and a Z0 between two steps is an open question.
+// Returns up to twelve commands. Only X and Y have fractions, and no sum of them is half a step, which may be rounded
+// up or down. Z has none, because a Z0 between two steps is an open question.
 std::string random_job(std::mt19937& random);
 
 }  // namespace axisgate::rml1

@@ -14,14 +14,14 @@ std::string pair(Random& random, std::int64_t least = 0, std::int64_t most = 150
   return fmt::format("{},{}", x, y);
 }
 
-// Some longer than the window of paced streaming.
+// Returns a list of coordinates; a few are longer than the window of paced streaming.
 std::string list(Random& random) {
   std::string list = "PD" + pair(random);
   for (auto more = random.between(0, 9); more > 0; --more) list += "," + pair(random);
   return list + ";";
 }
 
-// Its moves are over before the next has come over the line.
+// Returns moves that end before the next one has arrived over the line.
 std::string raster(Random& random) {
   const auto y = random.between(0, 1500);
   std::string raster;
@@ -29,7 +29,7 @@ std::string raster(Random& random) {
   return raster;
 }
 
-// It moves nothing, and takes no time.
+// Returns a command that moves nothing and takes no time.
 std::string setting(Random& random) {
   switch (random.between(0, 4)) {
     case 0:

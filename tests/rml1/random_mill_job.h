@@ -1,4 +1,4 @@
-// Jobs at random, without an error in them.
+// Random jobs without errors.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace axisgate::rml1 {
 
-// Commands of all kinds but H and IN, of `bytes` or a little more, within 15 mm of the work origin. The same for the
-// same seed.
+// Returns commands of all kinds except H and IN, of `bytes` or slightly more, within 15 mm of the work origin. The same
+// seed gives the same job.
 std::string random_mill_job(std::uint64_t seed, std::size_t bytes);
 
 }  // namespace axisgate::rml1

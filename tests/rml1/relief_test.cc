@@ -1,4 +1,4 @@
-// The surface that cuts leave, seen from above: where it is cut, in which colour, and how the light falls.
+// Tests of the surface that cuts leave, seen from above: the cut places, their colours, and the light.
 #include "device/rml1/picture/relief.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// A step is 0.01 mm: test_profile(). Nine depths along X, 10 mm apart, with a tool of 2 mm.
+// Returns a job with nine depths along X, 10 mm apart. A step is 0.01 mm: test_profile(). The tool has 2 mm.
 std::string nine_depths() {
   std::string job = "Z0,0,0;";
   for (int i = 1; i <= 9; ++i)
@@ -68,14 +68,14 @@ TEST(Reliefs, FlatGroundHasTheColourOfItsDepth) {
   EXPECT_EQ(seen.at(1500, 1000), 0u) << "nothing is cut there";
 }
 
-// 2 mm are assumed, 1 mm on each side of the path.
+// The default is a tool of 2 mm, 1 mm on each side of the path.
 TEST(Reliefs, AreAsWideAsTheTool) {
   EXPECT_NE(Seen(nine_depths()).at(1080, 1000), 0u);
   EXPECT_EQ(Seen(nine_depths()).at(1120, 1000), 0u);
   EXPECT_NE(Seen(nine_depths(), 6).at(1280, 1000), 0u);
 }
 
-// Up and to the left of a groove its wall turns away from the light, which comes from there.
+// Light comes from the upper left. A groove's wall on that side turns away from the light.
 TEST(Reliefs, LightComesFromTheUpperLeft) {
   const Seen seen("Z0,0,0;Z0,0,-10;Z4000,0,-1600;Z8000,0,-1600;Z12000,0,-10;" + nine_depths());
   const auto light = [&](double x) {

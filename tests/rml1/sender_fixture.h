@@ -1,4 +1,4 @@
-// A sender with a line as a test has it, in steps of a millisecond.
+// Fixture of a sender with a line that a test sets, in steps of a millisecond.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace axisgate::rml1 {
 
 class SenderTest : public testing::Test {
  protected:
-  // 10 mm at 15 mm/s each, so 0.7 to 0.9 s by the profile; without a spin-up.
+  // Returns moves of 10 mm at 15 mm/s, 0.7 to 0.9 s each by the profile, without a spin-up.
   static std::string vectors(int count) {
     std::string job = "!MC0;^PA;V15;VS15;";
     for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";

@@ -1,4 +1,4 @@
-// A SenderLine has all that a sender needs beside its line, for tests that have no controller.
+// A SenderLine has everything that a sender needs besides its line, for tests without a controller.
 #pragma once
 
 #include "device/rml1/sending/abort.h"

@@ -1,4 +1,4 @@
-// What is written of a job and when; pause, abort, and a line that is held.
+// Tests of the bytes written for a job and of their times: pause, abort, and a line that is stopped.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 using enum SenderState;
 
-// By hand, from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
+// Typed by hand from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
 TEST(Words, OfAnAbort) {
   EXPECT_EQ(abort_words(test_profile(), false), "\x1B.K\x1B.K^PA;!VZ15;!ZM0;!MC0;");
   EXPECT_EQ(abort_words(test_profile(), true), "\x1B.K\x1B.K!MC0;^PA;!VZ15;!ZM0;!MC0;");
@@ -35,7 +35,7 @@ TEST(Words, AroundAJob) {
   EXPECT_EQ(epilogue(test_profile(), false), ";!MC0;^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;");
 }
 
-// "When the cutting direction changes" (guideline 3-1 W): once in a command, or before each of its points.
+// "When the cutting direction changes" (guideline 3-1 W): once per command, or before each of its points.
 TEST(Timeline, HasADwellBeforeEachPointAtMost) {
   const Timeline with("^PA;W1000;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
   const Timeline without("^PA;W0;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
@@ -66,7 +66,7 @@ TEST_F(SenderTest, PacedNeverGoesBeyondItsWindow) {
   EXPECT_GE(most, 55u) << "less than it may";
 }
 
-// A converter takes all at once, and nothing shows how much of it has arrived.
+// A converter accepts all bytes at once, and its progress on the line is not visible.
 TEST_F(SenderTest, PacedCountsTheTimeThatBytesNeedOnTheLine) {
   line_ = FakeMillLine(10'000'000);
   std::string job;
@@ -86,7 +86,7 @@ TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
   EXPECT_EQ(line_.received, job_);
 }
 
-// As a pseudo-terminal, a serial server or a printer device does, whose queue shows nothing.
+// A pseudo-terminal, a serial server or a printer device behaves like this line: its queue is not visible.
 TEST_F(SenderTest, FullDoesNotWaitForTheMillWhereTheLineHasTakenAll) {
   line_ = FakeMillLine(10'000'000);
   begin(vectors(200), {.streaming = Streaming::full});
@@ -148,7 +148,7 @@ TEST_F(SenderTest, ATurningSpindleIsStoppedAfterTheRaise) {
   EXPECT_EQ(written(), abort_words(profile_, false));
 }
 
-// Before the first move it does not turn.
+// The spindle does not turn before the first move.
 TEST_F(SenderTest, OneThatMayRestIsStoppedBefore) {
   begin("^PA;V15;VS15;PU1000,0;PU0,0;");
   run_for(milliseconds(500));
@@ -157,7 +157,7 @@ TEST_F(SenderTest, OneThatMayRestIsStoppedBefore) {
   EXPECT_THAT(written(), StartsWith("\x1B.K\x1B.K!MC0;"));
 }
 
-// !MC0 stops it, and the dwell comes before it starts again (guideline 3-1 W, 5-2).
+// !MC0 stops the spindle, and the dwell comes before it starts again (guideline 3-1 W, 5-2).
 TEST_F(SenderTest, OneThatRestsInADwellIsStoppedBefore) {
   begin("^PA;V15;VS15;W500;PU500,0;PD1000,0;!MC0;!MC1;PD0,0;", {.window = 20});
   run_for(std::chrono::seconds(6));
@@ -181,7 +181,7 @@ TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
   EXPECT_THAT(line_.received, testing::EndsWith(abort_words(profile_, true)));
 }
 
-// CTS went low before the last command had left.
+// CTS became low before the last command had left the host.
 TEST_F(SenderTest, WhatHasNotLeftTheHostIsNotFed) {
   begin(vectors(2), {.streaming = Streaming::full});
   run_for(milliseconds(20));
@@ -196,7 +196,7 @@ TEST_F(SenderTest, WhatHasNotLeftTheHostIsNotFed) {
   EXPECT_EQ(sender_->state(), fed);
 }
 
-// While CTS is low a mill has not executed all: it has no room, or is off.
+// While CTS is low a mill has not executed everything: its buffer is full, or it is off.
 TEST_F(SenderTest, WhileTheLineIsHeldNothingIsFed) {
   begin(vectors(2), {.streaming = Streaming::full});
   while (sender_->state() == sending || line_.unsent() > 0) run_for(milliseconds(1));
@@ -208,7 +208,7 @@ TEST_F(SenderTest, WhileTheLineIsHeldNothingIsFed) {
   EXPECT_EQ(sender_->state(), fed);
 }
 
-// 0.9 s of a move by the profile, and 1.5 times that by the slowest mill.
+// A move takes 0.9 s by the profile, and 1.5 times as long on the slowest mill.
 TEST_F(SenderTest, AMoveIsTimedFromWhenItsBytesHaveLeft) {
   begin("!MC0;^PA;V15;VS15;PU1000,0;VS15;VS15;");
   while (progress().written < 27) run_for(milliseconds(1));
@@ -234,7 +234,7 @@ TEST_F(SenderTest, ALostLineIsAnEndOfWhichNothingIsKnown) {
   EXPECT_EQ(sender_->state(), lost);
 }
 
-// README.md's table, typed by hand: what each call makes of each state. The rest changes nothing.
+// Typed by hand from README.md's table: the effect of each call in each state. All other calls have no effect.
 TEST_F(SenderTest, TheTableOfStates) {
   const auto in = [this](SenderState state) {
     line_ = FakeMillLine();

@@ -1,5 +1,5 @@
-// A sender that feeds the simulated mill over a line of 9600 baud: whether what the mill has really executed is within
-// the range of the progress, what a window costs, and which one a job needs.
+// Tests of a sender that feeds the simulated mill over a line of 9600 baud: the mill's real execution lies within the
+// range of the progress; the cost of a window, and the window that a job needs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using std::chrono::seconds;
 
 constexpr Duration kForever = std::chrono::minutes(10);  // a command may take some seconds
 
-// A mill, and the profile by which it is fed.
+// A mill and the profile by which a sender feeds it.
 struct Pair {
   std::string_view name;
   Profile profile;
@@ -31,9 +31,9 @@ void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
 struct Sent {
   int looks = 0, outside = 0;
   std::string first_outside;
-  std::uint64_t ahead = 0;  // bytes written and not executed, at most
-  std::size_t at_most = 0;  // by the bound shown before the start
-  std::uint64_t width = 0;  // of the range, bytes, at most
+  std::uint64_t ahead = 0;  // maximum bytes written and not yet executed
+  std::size_t at_most = 0;  // the bound shown before the start
+  std::uint64_t width = 0;  // maximum width of the range, bytes
   double seconds = 0, ended_s = 0;
 };
 
@@ -74,7 +74,9 @@ Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Durat
 
 struct Paused {
   int pauses = 0;
-  double longest_s = 0, shown_s = 0;  // from a pause until all that was written is executed; as shown before the start
+  double longest_s = 0,
+         shown_s =
+             0;  // longest time from a pause until everything written is executed; the time shown before the start
 };
 
 Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
@@ -120,8 +122,8 @@ TEST_P(SentJob, TheTruthIsWithinTheRangeAtEverySecond) {
   }
 }
 
-// What the line takes has room in the mill's buffer and in a converter, or has been read: at most two commands more are
-// in the host and under way.
+// Bytes that the line accepts are in the mill's buffer or a converter, or have been read: at most two more commands are
+// in the host or in progress.
 TEST_P(SentJob, FullStreamingKnowsTheTruthToABuffer) {
   const SendSettings settings{.streaming = Streaming::full, .flow_control = true};
   for (const std::string& job : {uniform_vectors(3000), bursts_of_vectors(3000)}) {
@@ -140,7 +142,7 @@ TEST_P(SentJob, NoMoreIsAheadThanWasShownBeforeTheStart) {
   }
 }
 
-// At some twenty places of the job.
+// Pauses at about twenty places of the job.
 TEST_P(SentJob, APauseEndsWithinTheTimeThatWasShown) {
   for (const std::string& job : {uniform_vectors(500), bursts_of_vectors(500)}) {
     for (const Streaming streaming : {Streaming::paced, Streaming::full}) {
@@ -163,8 +165,8 @@ TEST_P(SentJob, ALargerWindowLosesNoMore) {
   }
 }
 
-// From the fastest to the slowest that a sender allows for: its slack is 1.5, and 1.5 times 1.5 is 2.25. The last
-// needs no time to accelerate, and its profile says so.
+// Mills from the fastest to the slowest that a sender allows for: its slack is 1.5, and 1.5 times 1.5 is 2.25. The last
+// needs no time to accelerate, and its profile says the same.
 INSTANTIATE_TEST_SUITE_P(OfAMill, SentJob,
                          testing::Values(Pair{"no acceleration", short_vectors_profile(), "none", 0},
                                          Pair{"the best", short_vectors_profile(), "best", 0},
@@ -172,7 +174,8 @@ INSTANTIATE_TEST_SUITE_P(OfAMill, SentJob,
                                          Pair{"slower", short_vectors_profile(), "worst", 125},
                                          Pair{"measured", measured_profile(), "none", 0}));
 
-// While a vector of 400 ms is driven, 64 bytes are three commands: the next twenty need 8 ms each, and their bytes 19.
+// During a vector of 400 ms the 64 bytes are three commands: the next twenty take 8 ms each to drive, and 19 ms each on
+// the line.
 TEST(AdaptedWindow, LosesNothingWhereASmallOneLoses) {
   const Pair measured{"measured", measured_profile(), "none", 0};
   const std::string job = bursts_of_vectors(2000);
@@ -202,7 +205,7 @@ TEST(AdaptedWindow, IsTheBoundThatIsShown) {
   EXPECT_EQ(sent(uniform_vectors(100), {"measured", measured_profile(), "none", 0}, {.slack = 1}).at_most, 64u);
 }
 
-// Of what is shorter than its bytes, the line takes the time: ten bits a byte.
+// If a move is shorter than its bytes on the line, the line determines the time: ten bits per byte.
 TEST(SentJob, TheLineDoesNotRestBetweenCommands) {
   const std::string job = vectors(1000, [](int) { return 8; });
   const double found = sent(job, {"measured", measured_profile(), "none", 0}, {.streaming = Streaming::full}).seconds;

@@ -1,5 +1,5 @@
-// The path of a job as it is sent equals the path that the check has played: nothing that is sent around a job may
-// complete or extend one of its commands.
+// Test that the path of a sent job equals the path that the check has played: bytes sent around a job must not complete
+// or extend one of its commands.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ std::string contents(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// !NR waits for a person, so it is left out.
+// Removes !NR, which waits for a person.
 std::string without_waits(std::string text) {
   for (auto at = text.find("!NR"); at != std::string::npos; at = text.find("!NR")) text.replace(at, 3, ";");
   return text;
@@ -46,7 +46,8 @@ std::vector<std::string> jobs_in(const std::filesystem::path& folder, IsJob is_j
   return jobs;
 }
 
-// Returns the jobs that tests/jobs writes. Their names end as many programs end them; a table lies beside them.
+// Returns the jobs that tests/jobs writes. They have the file name endings that many programs use; the table beside
+// them is skipped.
 std::vector<std::string> written_jobs() {
   return jobs_in(paths::written_jobs(), [](const std::string& ending) { return ending != ".tsv"; });
 }
@@ -72,7 +73,7 @@ bool is_refused(const std::string& job, const Profile& profile) {
   return check.diagnostics().count(Severity::error) > 0;
 }
 
-// The tool goes up where it is, after the last step of the job, and nothing else happens.
+// Expects at most one more event: the tool goes straight up after the last step of the job.
 void expect_only_a_lift(std::span<const Course::Event> events, const Course::Event* last, const std::string& job) {
   ASSERT_LE(events.size(), 1U) << job;
   if (events.empty()) return;
@@ -89,7 +90,7 @@ const Course::Event* last_move(const std::vector<Course::Event>& events) {
   return found == events.rend() ? nullptr : &*found;
 }
 
-// Reports whether it was compared: a job with an error is not sent.
+// Compares the courses. Returns false if the job has an error, because it is then not sent.
 bool compare(const std::string& job, const Profile& profile) {
   if (is_refused(job, profile)) return false;
   simulator::MillSetup setup = simulator::with_options({{"acceleration", "none"}});
@@ -106,7 +107,7 @@ bool compare(const std::string& job, const Profile& profile) {
   return true;
 }
 
-// By the first of the mills that takes it.
+// Compares with the first mill that accepts the job.
 bool compare_with_any(const std::string& job, const std::vector<Profile>& profiles) {
   return std::ranges::any_of(profiles, [&](const Profile& profile) { return compare(job, profile); });
 }
@@ -128,7 +129,7 @@ TEST(SentPath, IsThatOfTheCheckForEachJobOfTheTests) {
   EXPECT_GE(compared, 300);
 }
 
-// A file may have lost its end, in the middle of a command.
+// A file may lack its end, from the middle of a command on.
 TEST(SentPath, IsThatOfTheCheckWhereverAJobIsCutOff) {
   const Profile profile = test_profile();
   std::vector<std::string> jobs = typed_jobs();
@@ -154,7 +155,7 @@ TEST(SentPath, OfAnOpenGroupIsNotDriven) {
   EXPECT_EQ(sent.text().find("ZE"), std::string::npos) << sent.text();
 }
 
-// Otherwise such a job could be paused and raised after its end, and would have a rest without a command.
+// Otherwise a job could be paused and raised after its end, and would have a rest without a command.
 TEST(SentPath, TheWholePartCountsAsSentWithoutItsOpenEnd) {
   const PreparedJob sent("PU100,100;!ZEX500", "d", test_profile(), kWork, SendSettings());
   EXPECT_EQ(sent.of_body(sent.text().size()), 17U);

@@ -1,4 +1,4 @@
-// Jobs of short vectors, as CAM programs write reliefs: 18 bytes a command, 18.75 ms on a line of 9600 baud.
+// Jobs of short vectors, like reliefs of CAM programs: 18 bytes per command, 18.75 ms on a line of 9600 baud.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,24 +10,25 @@
 
 namespace axisgate::rml1 {
 
-// Where the simulator begins with it, so that nothing is clipped.
+// Work origin at the place where the simulator begins, so that nothing is clipped.
 inline constexpr Origin kAtHome{0, 0, 0};
 
-// With accelerations and a slower high end as the shipped profiles have them.
+// Returns a profile with accelerations and a slower high end, like the shipped profiles.
 inline Profile short_vectors_profile() {
   Profile profile = test_profile();
   profile.acceleration = {.best = 200, .worst = 100, .slower = 0.5};
   return profile;
 }
 
-// Of a mill whose figures were measured, and which needs no time to accelerate.
+// Returns the profile of a mill whose figures were measured, and which needs no time to accelerate.
 inline Profile measured_profile() {
   Profile profile = test_profile();
   profile.acceleration = {.best = 1e7, .worst = 1e7, .slower = 0};
   return profile;
 }
 
-// In rows of 40,000 steps, to the right and back. `steps(index)` is how long each is, in 0.01 mm; at 10 mm/s.
+// Returns rows of 40,000 steps, to the right and back, at 10 mm/s. `steps(index)` is the length of a vector, in 0.01
+// mm.
 template <class Steps>
 std::string vectors(int count, Steps&& steps) {
   std::string job = prologue() + "!MC0;V10;\n";
@@ -41,12 +42,12 @@ std::string vectors(int count, Steps&& steps) {
   return job + epilogue(short_vectors_profile(), false);
 }
 
-// Each takes 20 ms at full speed.
+// Returns vectors that take 20 ms each at full speed.
 inline std::string uniform_vectors(int count) {
   return vectors(count, [](int) { return 20; });
 }
 
-// One of 400 ms, and twenty of 8 ms.
+// Returns bursts: one vector of 400 ms, then twenty of 8 ms.
 inline std::string bursts_of_vectors(int count) {
   return vectors(count, [](int index) { return index % 21 == 0 ? 400 : 8; });
 }

@@ -1,4 +1,4 @@
-// The simulated mill in virtual time, with what it records.
+// The simulated mill in virtual time, with its record.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace axisgate::rml1::simulator {
 
-// Option names and the values to set.
+// Returns the setup with options set, given as names and values.
 inline MillSetup with_options(const std::vector<std::pair<std::string_view, std::string_view>>& options,
                               MillSetup setup = {}) {
   for (const auto& [name, value] : options) {
@@ -24,9 +24,9 @@ inline MillSetup with_options(const std::vector<std::pair<std::string_view, std:
   return setup;
 }
 
-// test_profile() unless the setup has another, with the work origin 100 mm from the home corner and Z0 50 mm below the
-// top: X and Y from -10000 to 50500, Z from -1050 to 5000. The tool is
-// at the work origin and at the top. Z2 is the top, Z1 is -100; the spindle needs 2 s.
+// A MillBench has the test_profile() unless its setup has another. The work origin is 100 mm from the home corner, and
+// Z0 50 mm below the top: X and Y from -10000 to 50500, Z from -1050 to 5000. The tool is at the work origin and at the
+// top. Z2 is the top, Z1 is -100; the spindle needs 2 s.
 class MillBench : private ByteLink {
  public:
   explicit MillBench(MillSetup setup = {})
@@ -39,7 +39,7 @@ class MillBench : private ByteLink {
     written.clear();
   }
 
-  // Bytes that come at this instant.
+  // Delivers bytes at the present time.
   void send(std::string_view bytes) { mill.receive(bytes, now); }
 
   void wait_ms(int time) {
@@ -47,7 +47,7 @@ class MillBench : private ByteLink {
     mill.advance(now);
   }
 
-  // Until nothing more happens by itself.
+  // Runs until nothing more happens without a command.
   void finish() {
     for (auto next = mill.next_deadline(); next; next = mill.next_deadline()) {
       now = *next;
@@ -55,7 +55,7 @@ class MillBench : private ByteLink {
     }
   }
 
-  // How long a job takes, in milliseconds.
+  // Returns the duration of a job, in milliseconds.
   double time_ms(std::string_view job) {
     const TimePoint before = now;
     send(job);
@@ -70,7 +70,7 @@ class MillBench : private ByteLink {
 
   std::string errors() { return mill.state(now).errors; }
 
-  // What follows the time in each recorded line that has `key`.
+  // Returns the text after the time in each recorded line that has `key`.
   std::vector<std::string> recorded(const std::string& key) const {
     std::vector<std::string> found;
     for (const std::string& line : lines) {
@@ -82,7 +82,7 @@ class MillBench : private ByteLink {
   }
 
   std::vector<std::string> lines;
-  std::string written;  // to the host
+  std::string written;  // bytes written to the host
   TimePoint now{};
   Simulator mill;
 

@@ -1,4 +1,4 @@
-// The simulated mill's buffer, its flow control, and ESC.K by each interpretation (guideline 4).
+// Tests of the simulated mill's buffer, its flow control, and ESC.K by each interpretation (guideline 4).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ MillSetup with_buffer(std::size_t bytes, Flow flow = Flow::none) {
   return setup;
 }
 
-// The mill is busy for 2 s of spin-up and 1 s of travel from here on, with nothing buffered.
+// Keeps the mill busy for 2 s of spin-up and 1 s of travel, with nothing buffered.
 void keep_busy(MillBench& bench) { bench.send("PU1500,0;"); }
 
 TEST(MillBuffer, HoldsWhatComesDuringAMotion) {
@@ -120,7 +120,7 @@ TEST(MillEscape, KeepsTheFirstErrorOfTheLine) {
   EXPECT_THAT(bench.recorded("error"), ElementsAre("\"error\":11", "\"error\":16", "\"error\":16"));
 }
 
-// One second into the travel of 15 mm the tool is at 1500 - 500 steps; then 6 bytes are buffered.
+// Sends ESC.K during a travel of 15 mm at 15 mm/s, with 6 bytes buffered.
 void escape_in_mid_move(MillBench& bench) {
   bench.send("!MC0;F15;PU1500,0;");
   bench.send("PU0,0;");
@@ -203,7 +203,7 @@ TEST(MillEscapeK, EndsACircumflex) {
   MillBench bench(with_options({{"escape_k", "one-shot"}}));
   bench.send("!MC0;^");
   bench.send(kEscapeK);
-  bench.send("D;");  // of mode 1: after ^ it would be no command
+  bench.send("D;");  // D of mode 1: after ^ it would not be a command
   bench.finish();
   EXPECT_EQ(bench.tool(), "0 0 -100");
   EXPECT_EQ(bench.errors(), "none");
@@ -215,7 +215,7 @@ TEST(MillEscapeK, LeavesTheSpindleTurning) {
   bench.wait_ms(2400);
   bench.send(kEscapeK);
   EXPECT_EQ(bench.mill.state(bench.now).rpm, 6500);
-  // Relative movement counts from where the tool stopped.
+  // Relative movement counts from the place where the tool stopped.
   bench.send("PR100,0;");
   bench.finish();
   EXPECT_EQ(bench.tool(), "700 0 5000");
@@ -242,7 +242,7 @@ TEST(MillEscapeK, IsNotTakenWithASmallLetter) {
   bench.send("\x1B.k");
   bench.finish();
   EXPECT_EQ(bench.tool(), "1500 0 5000");
-  EXPECT_EQ(bench.errors(), "1,11");  // k is no command
+  EXPECT_EQ(bench.errors(), "1,11");  // k is not a command
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Where the simulated mill moves and how long it takes, computed by hand from the guideline and the figures of
-// test_profile(): 0.01 mm a step, travel 15 mm/s, cutting and Z 2 mm/s until they are set, a spin-up of 2 s.
+// Tests of the simulated mill's moves and their durations, computed by hand from the guideline and the figures of
+// test_profile(): steps of 0.01 mm, travel 15 mm/s, cutting and Z 2 mm/s until they are set, a spin-up of 2 s.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(MillMotion, CutsAtFAndLowersAtV) {
 
 TEST(MillMotion, GoesStraightInThreeAxes) {
   MillBench bench;
-  // 30 mm, 40 mm and no height.
+  // 30 mm, 40 mm and no change of height.
   EXPECT_NEAR(bench.time_ms("!MC0;V10;Z3000,4000,5000;"), 5000, kMs);
   bench.send("PR;Z0,0,-1000;");
   bench.finish();
@@ -48,7 +48,7 @@ TEST(MillMotion, AcceleratesWhereSoSet) {
   MillBench best(with_options({{"acceleration", "best"}})), worst(with_options({{"acceleration", "worst"}}));
   EXPECT_NEAR(best.time_ms("!MC0;PU1500,0;"), 1075, kMs);
   EXPECT_NEAR(worst.time_ms("!MC0;PU1500,0;"), 1150, kMs);
-  // Half a millimetre never reaches the speed: twice the root of 0.5 / 200.
+  // Half a millimetre is too short to reach the speed: twice the root of 0.5 / 200.
   EXPECT_NEAR(best.time_ms("PU1550,0;"), 100, kMs);
 }
 
@@ -93,7 +93,7 @@ TEST(MillMotion, GoesToTheTopAndThenToTheOriginAtH) {
   EXPECT_THAT(paths[1], testing::EndsWith("\"path\":[[10300,10400,0],[10000,10000,0]]"));
 }
 
-// Guideline 5-1 C: out at one side, in at another.
+// Guideline 5-1 C: the path leaves at one side and returns at another.
 TEST(MillMotion, WaitsAtTheEdgeAndReturnsOverTheTop) {
   MillBench bench;
   bench.send("!MC0;PD-9000,0;");
@@ -111,8 +111,8 @@ TEST(MillMotion, WaitsAtTheEdgeAndReturnsOverTheTop) {
   for (std::string& path : paths) path = path.substr(path.find("\"path\""));
   EXPECT_THAT(paths, ElementsAre("\"path\":[[1000,10000,-5100],[0,10000,-5100]]",  // to the edge
                                  "\"path\":[[0,10000,-5100],[0,10000,0]]",         // raised
-                                 "\"path\":[[0,10000,0],[0,15000,0]]",             // to where the path comes back
-                                 "\"path\":[[0,15000,0],[0,15000,-5100]]",         // lowered
+                                 "\"path\":[[0,10000,0],[0,15000,0]]",      // to the place where the path returns
+                                 "\"path\":[[0,15000,0],[0,15000,-5100]]",  // lowered
                                  "\"path\":[[0,15000,-5100],[1000,15000,-5100]]"));
 }
 

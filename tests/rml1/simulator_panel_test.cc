@@ -1,4 +1,4 @@
-// What a person does at the simulated mill, directly and as lines of its control socket.
+// Tests of a person's actions at the simulated mill, directly and as lines of its control socket.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using testing::IsEmpty;
 
 std::string say(MillBench& bench, std::string_view line) { return control_reply(control(bench.mill, line, bench.now)); }
 
-// 20 mm down at 15 mm/s would take longer: 400 ms into a cut of 15 mm at 15 mm/s, 100 steps below Z0.
+// Lowers the tool, then runs 400 ms of a cut of 15 mm at 15 mm/s, 100 steps below Z0.
 void cut(MillBench& bench) {
   bench.send("V15;F15;PD;");
   bench.finish();
@@ -206,8 +206,8 @@ TEST(MillHeights, OfThePanelAreInEffect) {
   EXPECT_EQ(bench.tool(), "0 0 400");
 }
 
-// @ without numbers: "the value set using the operation panel may be used" (guideline 3-1 @); !PZ: "the default
-// values".
+// @ without numbers: "the value set using the operation panel may be used" (guideline 3-1 @). !PZ without numbers: "the
+// default values".
 TEST(MillHeights, OfThePanelComeBackByAtAlone) {
   const auto after = [](const std::string& option, const std::string& value, const std::string& job) {
     MillBench bench(with_options({{option, value}}));

@@ -1,4 +1,4 @@
-// The simulated mill's own reading of the guideline: the examples typed from it, and the gateway's model of the same
+// Tests of the simulated mill's parser: the examples typed from the guideline, and the gateway's model of the same
 // language on the same jobs. The two share no parser and no machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 std::string joined(const std::vector<int>& numbers) { return fmt::format("{}", fmt::join(numbers, " ")); }
 
-// Errors of the guideline in their order; 0 marks what is an error of a check only.
+// Returns errors of the guideline in order; errors with number 0 occur only in a check.
 std::string errors_of_check(const Played& played) {
   std::vector<int> numbers;
   for (const Diagnostic& one : played.diagnostics) {
@@ -30,7 +30,7 @@ std::string errors_of_mill(const MillBench& bench) {
   return joined(numbers);
 }
 
-// "spin up 2", "dwell 0.5": as Played has them.
+// Returns waits in the format of Played: "spin up 2", "dwell 0.5".
 std::vector<std::string> waits_of_mill(const MillBench& bench) {
   std::vector<std::string> waits;
   for (const std::string& line : bench.recorded("wait")) {
@@ -40,7 +40,7 @@ std::vector<std::string> waits_of_mill(const MillBench& bench) {
   return waits;
 }
 
-// Byte by byte, each executed before the next, and a delimiter that ends the last command.
+// Plays the job byte by byte, each executed before the next, with a delimiter that ends the last command.
 void play_at_leisure(MillBench& bench, const std::string& job) {
   for (const char byte : job + ";") {
     bench.send({&byte, 1});
@@ -49,7 +49,8 @@ void play_at_leisure(MillBench& bench, const std::string& job) {
   }
 }
 
-// All but those for a parser with a row of its own, and those in which ESC.K is an error of the check.
+// Returns all examples except those for a parser with an additional row, and those in which ESC.K is an error of the
+// check.
 std::vector<Paragraph> examples_for_a_mill() {
   std::vector<Paragraph> examples = paragraphs("examples");
   std::erase_if(examples, [](const Paragraph& example) {
@@ -68,7 +69,7 @@ TEST_P(MillExamples, GiveTheErrorsOfTheGuideline) {
     if (const int number = std::stoi(error)) expected.push_back(number);
   }
   MillBench bench;
-  bench.mill.set_z0(0, bench.now);  // the whole travel is below Z0, as where a job's origin is unknown
+  bench.mill.set_z0(0, bench.now);  // the whole travel is below Z0, as for a job with an unknown origin
   play_at_leisure(bench, job);
   EXPECT_EQ(errors_of_mill(bench), joined(expected)) << GetParam().all("<")[0];
 }
@@ -79,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Guideline, MillExamples, testing::ValuesIn(examples_for
   return name;
 });
 
-// So many that the check keeps all of them.
+// Reports whether the errors are few enough for the check to keep all of them.
 bool has_few_errors(const MillBench& bench) { return bench.recorded("error").size() <= Diagnostics::kSame; }
 
 TEST(MillAndCheck, AgreeOnErrorsWaitsAndWhereTheToolEnds) {

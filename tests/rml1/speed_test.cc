@@ -1,4 +1,4 @@
-// What speed a move has (guideline 3-1 F and V, 3-2 VS and PU, 3-3 !VZ).
+// Tests of the speed of a move (guideline 3-1 F and V, 3-2 VS and PU, 3-3 !VZ).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@ namespace {
 using testing::DoubleEq;
 using testing::ElementsAre;
 
-// Every figure another: travel 30, Z at most 10; F from 0.5 to 20 and 3 by default, V from 0.25 to 25 and 4.
+// Returns a mill whose figures all differ: travel 30, Z at most 10; F from 0.5 to 20, default 3; V from 0.25 to 25,
+// default 4.
 Profile mill() {
   Profile profile = test_profile();
   profile.speed = {30, 10, 0.5, 20, 3, 0.25, 25, 4};
@@ -47,7 +48,7 @@ TEST_P(CuttingSpeed, IsClampedToTheProfile) {
     EXPECT_EQ(first_told(*check), GetParam().diagnostic) << command;
   }
 }
-// "No error is generated": what the machine or the type cannot hold is limited, which is worth a warning (2-5).
+// "No error is generated": a value beyond the machine or the type is limited, with a warning (2-5).
 INSTANTIATE_TEST_SUITE_P(FAndVs, CuttingSpeed,
                          testing::Values(Set{"", 3}, Set{"5", 5}, Set{"0.7", 0.7}, Set{"0", 0.5}, Set{"-3", 0.5},
                                          Set{"20", 20}, Set{"20.1", 20, "warning 0"}, Set{"32767", 20, "warning 0"},
@@ -63,7 +64,7 @@ TEST_P(HeightSpeed, IsClampedToTheProfile) {
     EXPECT_EQ(first_told(*check), GetParam().diagnostic) << command;
   }
 }
-// "An out-of-range parameter results in error 3", and nothing is set.
+// "An out-of-range parameter results in error 3", and the speed is not set.
 INSTANTIATE_TEST_SUITE_P(VAndVz, HeightSpeed,
                          testing::Values(Set{"", 4}, Set{"5", 5}, Set{"0.3", 0.3}, Set{"0", 0.25}, Set{"-3", 0.25},
                                          Set{"25.1", 25, "warning 0"}, Set{"32767", 25, "warning 0"},
@@ -82,7 +83,8 @@ TEST(Speed, OfCuttingIsFInXAndYAndVInZ) {
   EXPECT_THAT(speeds("F7;V6;PD;PA99,0;PR9,0;"), ElementsAre(6, 7, 7));
 }
 
-// "PU operates at a particular specified speed, regardless of the VS command", M and R at the highest of the model.
+// "PU operates at a particular specified speed, regardless of the VS command". M and R run at the model's highest
+// speed.
 TEST(Speed, OfTravelIsTheProfiles) {
   for (const char* job : {"@-9,900;F7;V6;PU99,0;", "@-9,900;F7;V6;M99,0;", "@-9,900;F7;V6;R99,0;",
                           "@-9,900;F7;V6;PA99,0;", "@-9,900;F7;V6;PR99,0;"}) {
@@ -96,13 +98,13 @@ TEST(Speed, OfThreeAxesIsV) {
 
 TEST(Speed, OfHomeIsTheHighest) { EXPECT_THAT(speeds("V6;Z99,0,0;H;"), ElementsAre(6, 10, 30)); }
 
-// V25. Z alone at 10; 3, 4 and 5: at 12.5 Z makes 10; X and Y alone at 25.
+// V is 25. Z alone runs at 10. With sides 3, 4 and 5, Z runs at 10 if the move runs at 12.5. X and Y alone run at 25.
 TEST(Speed, IsNoMoreThanTheAxesHighest) {
   EXPECT_THAT(speeds("V25;Z0,0,4900;PR;Z300,0,-400;Z300,400,0;"),
               ElementsAre(DoubleEq(10), DoubleEq(12.5), DoubleEq(25)));
 }
 
-// X and Y reach 30, Z 10: on a slope of 1 in 10 the plane is the limit, 30 * sqrt(1.01).
+// X and Y reach 30, Z 10: on a slope of 1 in 10 the XY plane is the limit, 30 * sqrt(1.01).
 TEST(Speed, OfThePlaneIsNoMoreThanItsHighest) {
   Profile profile = mill();
   profile.speed.z_maximum = 100;
@@ -110,7 +112,7 @@ TEST(Speed, OfThePlaneIsNoMoreThanItsHighest) {
               ElementsAre(DoubleEq(30), DoubleEq(30 * std::sqrt(1.01))));
 }
 
-// "move only the X and Y axes at the speed set by the !ZZ command" (5-1 J): the bottom is at -1050.
+// "move only the X and Y axes at the speed set by the !ZZ command" (5-1 J). The bottom is at -1050.
 TEST(Speed, AtTheBottomIsV) { EXPECT_THAT(speeds("F7;V6;Z0,0,-2000;Z99,0,-2000;"), ElementsAre(6, 6)); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// When the spindle turns, and how fast (guideline 5-2, 3-3 !MC and !RC).
+// Tests of when the spindle turns, and at which speed (guideline 5-2, 3-3 !MC and !RC).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Guideline52, Starts,
                          testing::Values("PD", "PD9,9", "PU9,9", "PA9,9", "PR9,9", "M9,9", "R9,9", "D", "D9,9", "I",
                                          "I9,9", "Z9,9,9", "!ZZ9,9,9", "!ZEX9", "!ZEZ9", "!ZM-10", "@-9,9;PU"));
 
-// "At the time of a command that involves movement": whether the tool is there already or not.
+// "At the time of a command that involves movement", even if the tool is already at the target.
 class StartsInPlace : public testing::TestWithParam<const char*> {};
 TEST_P(StartsInPlace, WithACommandThatMayMove) {
   const Played found = played(std::string(GetParam()) + ";");
@@ -55,24 +55,25 @@ class Counts : public testing::TestWithParam<SpinUps> {};
 TEST_P(Counts, SpinUps) { EXPECT_EQ(played(GetParam().job).waits.size(), GetParam().count); }
 INSTANTIATE_TEST_SUITE_P(OfAJob, Counts,
                          testing::Values(SpinUps{"PD;PU9,9;PD8,8;Z7,7,7;!ZM-10;", 1},
-                                         // !MC 0, IN and H stop it, and the next movement starts it again.
+                                         // !MC 0, IN and H stop the spindle, and the next movement starts it again.
                                          SpinUps{"PD;!MC0;!MC1;PU;", 2}, SpinUps{"PD;IN;PD;", 2},
                                          SpinUps{"PD;H;PD;", 2},
-                                         // DF and a parameter that is not 0 do not.
+                                         // DF and a parameter that is not 0 do not stop it.
                                          SpinUps{"PD;DF;PU;", 1}, SpinUps{"PD;!MC1;PU;", 1}, SpinUps{"PD;!MC;PU;", 1},
-                                         // Only !MC 1, IN and DF permit it again; H does not.
+                                         // Only !MC 1, IN and DF permit the spindle again; H does not.
                                          SpinUps{"!MC0;PD;PU;", 0}, SpinUps{"!MC0;PD;H;PD;", 0},
                                          SpinUps{"!MC0;!MC1;PD;", 1}, SpinUps{"!MC0;!MC;PD;", 1},
                                          SpinUps{"!MC0;!MC-1;PD;", 1}, SpinUps{"!MC0;IN;PD;", 1},
                                          SpinUps{"!MC0;DF;PD;", 1}, SpinUps{"!MC0;!RC15;PD;", 0},
-                                         // H and IN move, but start nothing (reading of 5-2: they stop it).
+                                         // H and IN move, but do not start the spindle (interpretation of 5-2: they
+                                         // stop it).
                                          SpinUps{"!MC0;PD;!MC1;H;", 0}, SpinUps{"!MC0;PD;IN;", 0}));
 
 TEST(Spindle, StandsStillWhereItIsForbidden) {
   for (const Move& move : played("!MC0;PD9,9;PU;").moves) EXPECT_FALSE(move.turning);
 }
 
-// "Stop the spindle motor" comes after the tool is up.
+// "Stop the spindle motor" takes effect after the tool is up.
 TEST(Spindle, TurnsWhileInAndHLiftTheTool) {
   const Profile profile = test_profile();
   for (const char* job : {"PD;IN;", "PD;H;"}) {
@@ -142,7 +143,7 @@ TEST(Revolutions, StayWithoutParameterAndInError) {
   }
 }
 
-// 2000 + 4 * 500; no stage leaves what the spindle can do.
+// 2000 + 4 * 500. No stage exceeds the spindle's range.
 TEST(Revolutions, FollowTheProfilesStages) {
   Spindle spindle;
   spindle.law = Spindle::Law::stages;

@@ -1,4 +1,4 @@
-// However the bytes of a job come, the same comes of them.
+// Tests that a job has the same effects however its bytes are divided.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ std::vector<std::string> judged(const std::string& job, const Cuts& cuts) {
   return lines;
 }
 
-// At one byte, at each, and at random places.
+// Expects the same effects with cuts at one byte, at every byte, and at random places.
 void expect_same(const std::string& job, std::mt19937& random) {
   std::vector<Cuts> all = {every_byte(job), random_cuts(job, random), random_cuts(job, random)};
   if (job.size() <= 300) {
@@ -107,7 +107,7 @@ TEST(Split, OfEveryClippingCase) {
   }
 }
 
-// Names, numbers and bytes of every kind, so that many are in error.
+// Returns names, numbers and bytes of every kind, so that many are errors.
 std::string generated(unsigned seed) {
   static const std::vector<std::string> kPieces = {
       "PA",  "PR",  "PU", "PD", "P",   "D",   "I",    "M",     "R",      "H",      "Z",    "IN",  "DF",  "VS",   "V",
@@ -122,7 +122,7 @@ std::string generated(unsigned seed) {
   return job;
 }
 
-// As a CAM program writes it, and long enough for the planner to look ahead.
+// Returns a job like that of a CAM program, long enough for the planner to look ahead.
 std::string milled(unsigned seed) {
   std::mt19937 random(seed);
   std::string job = "IN;!MC1;V10;F5;!PZ-200,300;PU0,0;PD;";

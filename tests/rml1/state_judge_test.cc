@@ -1,4 +1,5 @@
-// What a job leaves behind in the machine, and what it takes from it (guideline 3-1 H, 3-2 IN DF, 3-3, 5-3).
+// Tests of the settings that a job leaves in the machine, and of those that it takes over (guideline 3-1 H, 3-2 IN DF,
+// 3-3, 5-3).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ TEST(SpindleSpeed, ThatIsSetStays) {
   EXPECT_THAT(left_by("!RC;"), IsEmpty());
 }
 
-// What nothing gives back, for the job after: not what the machine ignores.
+// Settings that no command resets for the next job, except those that the machine ignores.
 TEST(WhatAJobLeaves, IsWhatDfAndInDoNotReset) {
   Profile profile = test_profile();
   const auto leaves = [&profile](const char* job) { return checked(job, profile, {kMidway, {}, {}})->leaves(); };

@@ -1,4 +1,4 @@
-// How many bytes of a job are said to be in the mill, by the model and by the line.
+// Tests of the number of bytes of a job that are reported to be in the mill, by the model and by the line.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -36,7 +36,7 @@ TEST_F(Taken, WithoutFlowControlOnlyWhatIsExecutedIsTaken) {
   EXPECT_GT(progress().taken, 20u);
 }
 
-// The mill may have no room for what is sent against flow control.
+// The mill may have no room for bytes sent against flow control.
 TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
   begin(vectors(200), {.streaming = Streaming::full, .converter = 0, .flow_control = true});
   run_for(milliseconds(200));
@@ -49,7 +49,7 @@ TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
   EXPECT_EQ(progress().taken, left);
 }
 
-// Nor does it show that the mill has read what was before it.
+// These bytes are no evidence either that the mill has read the bytes before them.
 TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotExecuted) {
   std::string list = "PD0,0";
   for (int i = 1; i < 60; ++i) list += ",1000,0,0,0";
@@ -71,7 +71,7 @@ TEST_F(Taken, WhatIsDiscardedWithTheLineIsNotTaken) {
   run_for(milliseconds(200));
   ASSERT_GT(line_.unsent(), 0u);
   const std::size_t left = line_.received.size();
-  line_ = FakeMillLine();  // as device/link discards what waits
+  line_ = FakeMillLine();  // device/link discards waiting bytes in the same manner
   sender_->line_lost(now_);
   EXPECT_EQ(progress().taken, left);
 }

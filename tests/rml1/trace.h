@@ -1,4 +1,4 @@
-// What came of a played job, short enough to be compared by eye.
+// Effects of a played job as text, short enough to compare by eye.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,19 +12,19 @@
 
 namespace axisgate::rml1 {
 
-// Z from -1050 to 5000 with test_profile(), X and Y from -10000 to 50500.
+// Origin with Z from -1050 to 5000 by test_profile(), and X and Y from -10000 to 50500.
 inline constexpr Origin kMidway{100, 100, 50};
 
 inline std::string text(const Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
 
-// Where the moves end.
+// Returns the ends of the moves.
 inline std::vector<std::string> ends(const Played& played) {
   std::vector<std::string> found;
   for (const Move& move : played.moves) found.push_back(text(move.to));
   return found;
 }
 
-// "error 3 at 6", "warning 0 at 0".
+// Returns diagnostics as text: "error 3 at 6", "warning 0 at 0".
 inline std::vector<std::string> told(const std::vector<Diagnostic>& diagnostics) {
   std::vector<std::string> found;
   for (const Diagnostic& one : diagnostics) {
@@ -33,7 +33,7 @@ inline std::vector<std::string> told(const std::vector<Diagnostic>& diagnostics)
   return found;
 }
 
-// The same without the warning of a Z1 that the profile has given, as it does in most jobs of these tests
+// Returns diagnostics as text without the warning about a Z1 of the profile, which most jobs of these tests cause
 // (state_judge_test.cc).
 inline std::vector<std::string> told_but_z1(const std::vector<Diagnostic>& diagnostics) {
   std::vector<Diagnostic> found;
@@ -43,7 +43,7 @@ inline std::vector<std::string> told_but_z1(const std::vector<Diagnostic>& diagn
   return told(found);
 }
 
-// `profile` outlives what comes back.
+// Returns a finished check. `profile` must outlive it.
 inline std::unique_ptr<Check> checked(const std::string& job, const Profile& profile, CheckOptions options = {}) {
   auto check = std::make_unique<Check>(profile, std::move(options));
   check->feed(job);

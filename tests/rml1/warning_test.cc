@@ -1,4 +1,4 @@
-// The names by which people accept warnings.
+// Tests of the names by which people accept warnings.
 #include "device/rml1/language/warning.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What a job demands of the tool. A step of the test mill is 0.01 mm.
+// Tests of a job's demands on the tool. A step of the test mill is 0.01 mm.
 #include "device/rml1/check/workload.h"
 
 #include <gmock/gmock.h>
@@ -53,12 +53,12 @@ TEST(Section, AreAFew) {
 
 TEST(Pass, OfASlotInOneGo) { EXPECT_NEAR(deepest_pass("@-300,200;PU0,0;PD3000,0;PU;"), 3, 1e-6); }
 
-// Down without a lift, and there and back.
+// The tool goes down without a lift between the passes, back and forth.
 TEST(Pass, OfASlotInThree) {
   EXPECT_NEAR(deepest_pass("Z0,0,0;Z0,0,-100;Z3000,0,-100;Z3000,0,-200;Z0,0,-200;Z0,0,-300;Z3000,0,-300;PU;"), 1, 1e-6);
 }
 
-// A round of 40 mm with a slope of 1 mm each.
+// Each round of 40 mm has a slope of 1 mm.
 TEST(Pass, OfASlopeThatGoesRound) {
   std::string job = "Z0,0,0;";
   for (int round = 0; round < 5; ++round) {
@@ -73,7 +73,7 @@ TEST(Pass, OfAHoleThatIsPecked) {
   EXPECT_NEAR(deepest_pass("Z0,0,0;Z0,0,-1000;Z0,0,100;"), 10, 1e-6);
 }
 
-// 20 mm long, 3 mm wide, 2 mm deep, with round ends: on cells of 0.6 mm. The second time nothing is left.
+// The slot is 20 mm long, 3 mm wide and 2 mm deep, with round ends, on cells of 0.6 mm. A second pass removes nothing.
 TEST(Removed, IsTheVolumeOfTheSlot) {
   const double slot = 20 * 3 * 2 + std::numbers::pi * 1.5 * 1.5 * 2;
   const std::string job = "@-200,200;PU0,0;PD2000,0;PU;";

@@ -1,4 +1,4 @@
-// Targets that are come to from one side.
+// Tests of targets that are approached from one side.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using testing::ElementsAre;
 
 class Approaches : public testing::TestWithParam<std::int64_t> {};
 
-// From below, from above, from so near that it must first move back, and from where the approach starts.
+// The axis begins below the target, above it, so near that it must first move back, and where the approach starts.
 TEST_P(Approaches, ComeFromTheSameSide) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

@@ -12,13 +12,13 @@ using namespace shrc203;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// Hazard 1: each of these can be answered by a bare number while a completion is due.
+// Hazard 1: each of these questions can be answered by a bare number while a completion is due.
 const std::vector<std::string> kQuestions = {"?:C1", "?:F1",  "?:SLEEP", "?:BO",  "?:BEEP", "?:AXIS", "?:ACS1", "?:O",
                                              "?:W",  "I:",    "?:M1",    "?:MP2", "?:A3",   "?:WT1",  "?:WI2",  "?:P3",
                                              "?:V",  "*IDN?", "!:",      "Q:",    "?:CMD",  "SRQ:",   "?:D1",   "?:K"};
 
 constexpr Duration kQuestionLimit = seconds(10);
-constexpr int kInputs = 2;  // IN2: the very digit that a completion of axis 2 is
+constexpr int kInputs = 2;  // IN2: the same digit as a completion of axis 2
 
 std::string who(Random& random) { return fmt::format("caller-{}", random.between(1, 4)); }
 
@@ -124,7 +124,7 @@ void Callers::path() {
     const std::int64_t way = random.between(1, 2500), other_way = line ? random.between(-2500, 2500) : 0;
     segment.moves.push_back({first, pulses(random.chance(0.5) ? way : -way), {}});
     if (line) segment.moves.push_back({3, pulses(other_way), {}});
-    // Few of them are too short for the line: such a path would be refused.
+    // Few segments are too short for the line: a path with such a segment would be refused.
     const std::int64_t lasts_ms = random.between(15, 250);
     segment.speed = pulses(std::max<std::int64_t>(100, (way + std::abs(other_way)) * 1000 / lasts_ms));
     ++starts_allowed_[static_cast<std::size_t>(first - 1)];
@@ -223,8 +223,8 @@ void Callers::set_and_go() {
       });
 }
 
-// Questions that are closed by an !:S are judged by their answer; one flipped bit makes another number of it, or an O:
-// of a G:, which sets the outputs.
+// Checks an answer. Questions that are closed by an !:S are judged by their answer; one flipped bit can change its
+// number, or the O: of a G:, which sets the outputs.
 void Callers::check_answer(const std::string& question, const std::string& answer) {
   if (world_.wire().damaged_since(world_.now() - kQuestionLimit) || answer.starts_with("NG")) return;
   const bool outputs_known = world_.wire().commands_damaged() == 0;
@@ -234,8 +234,8 @@ void Callers::check_answer(const std::string& question, const std::string& answe
   if (answer != right) world_.violation(fmt::format("{} was answered by {} instead of {}", question, answer, right));
 }
 
-// A command that a fault has turned into another may start something that nobody requested; the gateway cannot know.
-// Each such command may do so once.
+// Checks the number of starts. A command that a fault has changed into another may start a motion that nobody
+// requested, and the gateway cannot know. Each such command may do so once.
 void Callers::check_starts() {
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     const int allowed = starts_allowed_[static_cast<std::size_t>(axis - 1)] + world_.wire().commands_damaged();
@@ -249,7 +249,7 @@ void Callers::check_starts() {
 void Callers::become_stationary() {
   world_.set_faults(Faults::none());
   mishaps_.undo_all();
-  world_.run_for(seconds(2));  // the last mishap may have been a restart, during which nothing is answered
+  world_.run_for(seconds(2));  // the last mishap may have been a restart, during which the device does not answer
   const auto stationary = [this] {
     for (const Motion& motion : world_.controller().motions()) {
       if (!is_outcome(motion.state)) return false;
@@ -259,7 +259,7 @@ void Callers::become_stationary() {
     const bool obeyed = std::ranges::all_of(stops, [](const Stop& stop) { return stop.stale; });
     return unfinished_questions_ == 0 && obeyed && world_.controller().state().link == LinkState::up;
   };
-  // A wrong bit may have made of a speed another that is as good, only slower: what really moves is no fault.
+  // A wrong bit may have changed a speed into a slower valid one: an axis that really moves is no fault.
   const auto moves = [this] { return world_.device().busy(1) || world_.device().busy(2) || world_.device().busy(3); };
   bool rests = world_.run_until(stationary, seconds(120));
   for (int minute = 0; minute < 60 && !rests && moves(); ++minute) rests = world_.run_until(stationary, seconds(60));

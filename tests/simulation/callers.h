@@ -1,4 +1,4 @@
-// Several people and programs who use the stage at once, at random, and remember the answers that they received.
+// Several people and programs that use the stage at once, at random, and remember the answers that they received.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace axisgate::simulation {
 
 struct Habits {
-  bool shapes = false;          // they also draw curves, rest between segments, come from one side, and scan
-  bool stop_at_faults = false;  // somebody stops the stage at each fault of the line
+  bool shapes = false;          // they also draw curves, rest between segments, approach from one side, and scan
+  bool stop_at_faults = false;  // a caller stops the stage at each fault of the line
 };
 
 class Callers {
@@ -19,7 +19,7 @@ class Callers {
   explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0, Habits habits = {});
 
   void act_for(Duration duration);
-  // The line is made perfect; every motion must end and the device must answer.
+  // Makes the line perfect; every motion must then end and the device must answer.
   void become_stationary();
 
  private:

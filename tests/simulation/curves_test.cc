@@ -1,5 +1,5 @@
-// The travel envelope along curves and to saved positions: what is sent keeps within it wherever the stage really comes
-// by, and nothing else is refused.
+// Tests of the travel envelope along curves and to saved positions: sent curves stay within it over the stage's whole
+// real path, and nothing else is refused.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ struct Reached {
   std::array<std::int64_t, kAxisCount> lowest{}, highest{};
 };
 
-// Sends the lines, and looks where the stage is until it stands.
+// Sends the lines, and watches the stage's position until it is stationary.
 Reached run_and_watch(World& world, const std::vector<std::string>& lines, std::string& problem) {
   bool ended = false;
   world.controller().execute({lines, world.context("anna")}, world.now(), [&](const ExecuteEvent& event) {
@@ -46,7 +46,7 @@ std::string coordinate(Random& random) { return fmt::format("{:+d}", random.betw
 
 struct DrawnCurve {
   std::string line;
-  bool other_direction = false;  // of a passing point: the gateway holds both ways around against the envelope
+  bool other_direction = false;  // for a passing point: the gateway checks both directions against the envelope
 };
 
 DrawnCurve drawn_curve(Random& random) {
@@ -73,7 +73,7 @@ TEST_P(CurvesAndTravel, WhatIsSentKeepsWithin) {
     const std::vector<std::string> lines = {"D:WS5000F50000R100 S5000F50000R100 S5000F50000R100", curve.line, "G:W"};
     std::string problem;
     const Reached really = run_and_watch(free, lines, problem);
-    if (!problem.empty()) continue;  // three points on a line, or too wide
+    if (!problem.empty()) continue;  // three points on a line, or the circle is too wide
     auto setup = quiet();
     bool leaves = false, nearly = false;
     for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
@@ -81,7 +81,7 @@ TEST_P(CurvesAndTravel, WhatIsSentKeepsWithin) {
       setup.profile.axes[axis].travel_minimum = pulses(minimum);
       setup.profile.axes[axis].travel_maximum = pulses(maximum);
       leaves = leaves || really.lowest[axis] < minimum || really.highest[axis] > maximum;
-      // The device's rounding is not known, and it is looked at every 2 ms.
+      // The device's rounding is unknown, and its position is read every 2 ms.
       nearly = nearly || really.lowest[axis] - 12 < minimum || really.highest[axis] + 12 > maximum;
     }
     World bounded(setup);
@@ -101,7 +101,7 @@ TEST_P(CurvesAndTravel, WhatIsSentKeepsWithin) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CurvesAndTravel, testing::Range(1, 9));
 
-// The end alone lies within (manual 71): a whole circle ends where it began).
+// Only the end lies within the envelope (manual 71): a whole circle ends where it began).
 TEST(CurvesAndTravelByHand, ACircleIsMoreThanItsEnd) {
   auto setup = quiet();
   setup.profile.axes[1].travel_maximum = pulses(99);
@@ -112,7 +112,7 @@ TEST(CurvesAndTravelByHand, ACircleIsMoreThanItsEnd) {
   EXPECT_EQ(execute(world, {"E:1A1+P100+P0D90", "G:A"}).front(), "OK") << world.replay();
 }
 
-// A chained curve starts by itself, and one setting may take another's place (manual 2. 2), 85)).
+// A chained curve starts without a command, and one setting may replace another (manual 2. 2), 85)).
 TEST(CurvesAndTravelByHand, EachSettingKeepsWithinByItself) {
   auto setup = quiet();
   for (auto& axis : setup.profile.axes) {
@@ -142,7 +142,7 @@ TEST(CurvesAndTravelByHand, TheSpeedCountsAtTheStart) {
       << world.replay();
 }
 
-// Its end is where it began, so that READY at its target proves nothing.
+// The circle ends where it began, so that READY at its target is no evidence.
 TEST(CurvesAndTravelByHand, ACircleThatNeverRanIsUnknown) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -153,7 +153,7 @@ TEST(CurvesAndTravelByHand, ACircleThatNeverRanIsUnknown) {
   EXPECT_EQ(world.outcomes().back().state, MotionState::unknown) << world.replay();
 }
 
-// A saved place is where it was saved, whatever its coordinates are called by now (manual 129)).
+// A saved place stays where it was saved, even if its coordinates have changed since (manual 129)).
 TEST(CurvesAndTravelByHand, ASavedPositionIsAskedForBeforeItIsGoneTo) {
   auto setup = quiet();
   setup.profile.axes[0].travel_maximum = pulses(5000);

@@ -25,7 +25,7 @@ using stage::MotionId;
 
 constexpr const char* kBoot = "one boot for all runs";
 constexpr const char* kMemoryDisk = "/dev/shm";
-// Of the last run nothing is left but these two: the index of the WAL is made again.
+// Only these two files of the last run are kept: SQLite rebuilds the index of the WAL.
 constexpr const char* kJournalFiles[] = {"", "-wal"};
 constexpr const char* kKept = ".kept";
 
@@ -84,7 +84,7 @@ void Daemon::on_event(const stage::Event& event, TimePoint now) {
 }
 
 void Daemon::let_disk_hang() {
-  (void)journal_->head();  // waits until all is written
+  (void)journal_->head();  // waits until everything is written
   folder_.keep_journal();
   disk_hangs_ = true;
 }

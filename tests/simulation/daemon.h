@@ -1,5 +1,5 @@
-// A daemon without its threads, in virtual time: what of it is gone when it is killed, and what it finds when it starts
-// again.
+// The daemon without its threads, in virtual time: the state that a kill loses, and the state that the next start
+// finds.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ namespace axisgate::simulation {
 
 inline constexpr const char* kDevice = "stage";
 
-// The state directory. It is in memory where the machine has that: a kill leaves what was committed, synced or not.
+// The state directory, in memory if the machine has a memory disk: a kill preserves everything committed, synced or
+// not.
 class StateFolder {
  public:
   StateFolder();
@@ -32,7 +33,7 @@ class StateFolder {
   std::string motions() const { return path_ + "/motions"; }
   std::string stops() const { return path_ + "/stops"; }
 
-  // Keeps the journal as it is; the other puts it back. Nobody may write meanwhile.
+  // Saves a copy of the journal, and restores it. Nobody may write in between.
   void keep_journal() const;
   void put_journal_back() const;
 
@@ -40,23 +41,23 @@ class StateFolder {
   const std::string path_;
 };
 
-// One run of it. The journal is the real one with its thread, which DeviceEntries and settle_what_was_left() write to;
-// this class waits for its commits, so that every run of a seed is the same.
+// One run of the daemon. The journal is the real one with its thread, to which DeviceEntries and settle_what_was_left()
+// write. This class waits for the journal's commits, so that every run of a seed is the same.
 class Daemon {
  public:
-  // `generation`: a greater one for each run. Throws where the files cannot be opened.
+  // `generation` must be greater for each run. Throws if the files cannot be opened.
   Daemon(const StateFolder& folder, const server::journal::MemoryBounds& bounds, std::uint32_t generation);
 
   server::Leases& leases() { return leases_; }
   server::journal::RequestMemory& requests() { return requests_; }
   server::journal::Journal& journal() { return *journal_; }
 
-  // As server::Gateway and server::Stage do with what was left, and axisgated.cc behind them.
+  // Does the same with the state of the last run as server::Gateway, server::Stage and then axisgated.cc.
   void prepare(stage::StageController& controller, TimePoint now);
-  // As server::DeviceEvents.
+  // Handles an event like server::DeviceEvents.
   void on_event(const stage::Event& event, TimePoint now);
 
-  // From now on the disk takes nothing: it hangs. What is written from now on is lost with this run.
+  // Makes the disk hang. Everything written after this call is lost with this run.
   void let_disk_hang();
   bool disk_hangs() const { return disk_hangs_; }
 
@@ -72,17 +73,17 @@ class Daemon {
   bool disk_hangs_ = false;
 };
 
-// A request that changes something, on its way through memory and journal: api::Mutation, whose threads virtual time
-// does not have. The calls and their order are the same.
+// A request that changes something, on its path through memory and journal. It does the same calls in the same order as
+// api::Mutation, but without the threads, which virtual time lacks.
 class Mutation {
  public:
-  // `daemon` outlives it.
+  // `daemon` must outlive this object.
   Mutation(Daemon& daemon, server::journal::RequestChange begun);
 
-  // As api::Mutation::intend(), but it waits for the disk. journal_unavailable.
+  // Does the same as api::Mutation::intend(), but waits for the disk. Fails with journal_unavailable if the disk hangs.
   Result<void> intend(TimePoint now);
   void acted(std::optional<std::string> answer);
-  // True: its id is free again.
+  // Returns true if the id is free again.
   bool failed(const Problem& problem);
 
  private:

@@ -1,5 +1,5 @@
-// One number for all that went over a line and for what became of each motion: two builds whose numbers are equal for a
-// seed did the same, byte by byte and at the same virtual times. FNV-1a, 64 bits.
+// Digest of everything sent over a line and of each motion's outcome. Two builds with equal digests for a seed did the
+// same, byte by byte and at the same virtual times. FNV-1a, 64 bits.
 #pragma once
 
 #include <cstdint>

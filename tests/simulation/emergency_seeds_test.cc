@@ -1,5 +1,5 @@
-// Four users, emergency stops, cables that are cut and a daemon that is killed: nobody moves anything between an
-// emergency stop and its clear. A ledger of its own, which knows no latch of the gateway, says when that is.
+// Seeds with four users, emergency stops, cut cables and a killed daemon: nothing moves between an emergency stop and
+// its clear. A separate ledger, which knows no latch of the gateway, decides when that is.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -93,7 +93,7 @@ class FourUsers {
     world_.controller().emergency_stop(world_.context(user()), world_.now(), [](const StopReport&) {});
   }
 
-  // Answered well, and no other emergency stop has come since it was requested.
+  // Clears the errors. The latch ends if the call succeeds and no other emergency stop was requested since.
   void clear() {
     world_.controller().clear_errors({}, world_.context("admin"), world_.now(),
                                      [this, asked = asked_](const Result<void>& done) {
@@ -121,7 +121,7 @@ class FourUsers {
   int emergencies_ = 0, asked_ = 0;
 };
 
-// How many emergency stops were requested.
+// Returns the number of requested emergency stops.
 int hold_with_four(std::uint64_t seed) {
   FourUsers users(seed);
   users.act();

@@ -1,4 +1,4 @@
-// How bad a line and its device are: the profiles.
+// Fault profiles of a line and its device.
 #include "tests/simulation/wire.h"
 
 namespace axisgate::simulation {

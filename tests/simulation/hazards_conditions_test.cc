@@ -1,5 +1,5 @@
-// What somebody does at the stage is on record within one idle poll: the emergency button, limit sensors, motors, the
-// mode. Hazard 61.
+// Tests that a change by a person at the stage is recorded within one idle poll: emergency button, limit sensors,
+// motors, mode. Hazard 61.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// One look of the poll while something moves, and four exchanges at 38400 baud.
+// One question of the poll during a motion, and four exchanges at 38400 baud.
 constexpr Duration kExchanges = milliseconds(200);
 
 struct StageRecord : EventSink {
@@ -51,7 +51,7 @@ class Hazard61 : public testing::TestWithParam<bool> {
     world_->run_for(milliseconds(2345));
   }
 
-  // `deed` now, and what is on record of it: in time, and between two readings that have it between them.
+  // Runs `deed` and expects its entries in the record: in time, and between two readings before and after it.
   void expect(const std::function<void()>& deed, const std::vector<std::string>& texts) {
     record_.entries.clear();
     const TimePoint begun = world_->now();
@@ -83,7 +83,7 @@ class Hazard61 : public testing::TestWithParam<bool> {
 };
 
 TEST_P(Hazard61, TheButtonAtRest) {
-  // The motors go off with it (manual 66)): read by the question that follows.
+  // The button also switches the motors off (manual 66)), which the next question reads.
   expect([&] { device().press_emergency(now()); }, {"axes 1, 2 and 3: emergency stop", "axes 1, 2 and 3: motor off"});
   expect([&] { execute(*world_, {"BEC:W"}); }, {"axes 1, 2 and 3: emergency stop ended"});
   expect([&] { execute(*world_, {"C:W1"}); }, {"axes 1, 2 and 3: motor on"});
@@ -133,7 +133,7 @@ TEST_P(Hazard61, AnErrorWithoutABit) {
          {"axis 2: error without a name ended", "axis 2: scale error (S1)"});
 }
 
-// Moves and a homing change the status, but nobody at the panel caused that.
+// Moves and a homing change the status, but no person at the panel causes that.
 TEST_P(Hazard61, WhatIsAskedHereIsNone) {
   home(*world_, AxisSet::all());
   EXPECT_EQ(outcome_of(*world_, 1).state, MotionState::succeeded) << world_->replay();
@@ -145,7 +145,7 @@ TEST_P(Hazard61, WhatIsAskedHereIsNone) {
 
 INSTANTIATE_TEST_SUITE_P(Followed, Hazard61, testing::Bool());
 
-// While the line is lost, the time before is that of the last reading on it.
+// For an event during a loss of the line, the earlier time is that of the last reading before the loss.
 TEST(Hazard, H61_WhatHappensWhileTheLineIsLost) {
   StageRecord record;
   auto setup = quiet();
@@ -165,7 +165,7 @@ TEST(Hazard, H61_WhatHappensWhileTheLineIsLost) {
   EXPECT_GE(record.entries[0].change.seen, lost + seconds(20));
 }
 
-// One status of many comes with another digit: 0x20 and 0x80001 instead of 1.
+// One of many statuses arrives with a wrong digit: 0x20 and 0x80001 instead of 1.
 TEST(Hazard, H61_AFlippedBitIsNoEvent) {
   StageRecord record;
   auto setup = quiet();
@@ -189,7 +189,7 @@ TEST(Hazard, H61_AFlippedBitIsNoEvent) {
   EXPECT_THAT(record.texts(), IsEmpty()) << world.replay();
 }
 
-// One axis alone: its answer to ?:C may look like its completion. The question keeps no motion waiting.
+// With one axis alone, the answer to ?:C may look like its completion. The question delays no motion.
 TEST(Hazard, H61_AControllerWithOneAxis) {
   StageRecord record;
   auto setup = quiet();

@@ -1,5 +1,4 @@
-// What the line does in doubt, one rule at a time. Each of these fails without the guard that it is about
-// (tests/guards/table.cc).
+// Tests of the line in doubt, one rule each. Each fails without the guard that it tests (tests/guards/table.cc).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +17,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// `instead` of the first line of that kind that begins with `prefix`; for a reply, the command that it answers does.
+// Replaces the first line of a kind that begins with `prefix`. A reply is chosen by the command that it answers.
 Script replace_first(World& world, LineKind kind, std::string prefix, std::string instead, Duration delay = {}) {
   return [&world, kind, prefix, instead, delay, done = false](LineKind seen, const std::string& line) mutable {
     const std::string& command = kind == LineKind::reply ? world.wire().commands().back() : line;
@@ -32,7 +31,7 @@ void expect_no_mix_up(World& world) {
   ASSERT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
 }
 
-// Asks `lines` all at once, each for a caller of its own; what each heard, in the order of `lines`.
+// Asks all `lines` at once, each for a different caller. Returns the answers in the order of `lines`.
 std::vector<std::string> ask_at_once(World& world, const std::vector<std::string>& lines) {
   auto heard = std::make_shared<std::vector<std::string>>(lines.size());
   auto open = std::make_shared<std::size_t>(lines.size());
@@ -47,7 +46,7 @@ std::vector<std::string> ask_at_once(World& world, const std::vector<std::string
   return *heard;
 }
 
-// A byte of the setting was doubled, and a reading behind the axis number lost one.
+// A byte of the setting was doubled, and a reading after the axis number lost one.
 TEST(Hazard, H04_AReadingThatContradictsTheOneBeforeIsNotTheEnd) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -65,7 +64,7 @@ TEST(Hazard, H04_AReadingThatContradictsTheOneBeforeIsNotTheEnd) {
   EXPECT_GE(ready, 4);
 }
 
-// The answer to a setting was lost, and what is read back is another: it is not set once more.
+// The answer to a setting was lost, and another value is read back: the setting is not sent again.
 TEST(Hazard, H11_WhatIsReadBackAsAnotherStartsNothing) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -87,7 +86,7 @@ TEST(Hazard, H11_WhatIsReadBackAsAnotherStartsNothing) {
   EXPECT_EQ(world.device().position(1), 0);
 }
 
-// Noise cuts a command in two, and both parts are answered: the second answer meets nobody.
+// Noise cuts a command in two, and both parts are answered: the second answer belongs to no command.
 void cut_a_command(const std::string& halves) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -99,15 +98,15 @@ void cut_a_command(const std::string& halves) {
 
 TEST(Hazard, H10_ALineFaultIsAnsweredTwice) { cut_a_command(std::string("C:\0001\r\n1\r\n", 9)); }
 
-// ... of which a short quiet is all that anybody notices.
+// The same with a refusal: a short silence is the only sign of it.
 TEST(Hazard, H10_ARefusalIsAnsweredTwice) { cut_a_command("C:\r\n11\r\n"); }
 
-// Seeds 402608 and 501949: the second answer comes late, from a slow controller or over a slow line.
+// Seeds 402608 and 501949: the second answer is late, from a slow controller or over a slow line.
 TEST(Hazard, H10_ASecondRefusalComesLate) {
   for (int late = 10; late < 900 && !HasFailure(); late += 10) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that the controller has not restarted
     int refusals = 0;
     world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
       if (kind == LineKind::command && text == "C:11" && refusals == 0) {
@@ -122,7 +121,7 @@ TEST(Hazard, H10_ASecondRefusalComesLate) {
   }
 }
 
-// A stop does not wait for that: it is the second refusal that is not believed.
+// A stop does not wait for the silence: the second refusal is not believed.
 TEST(Hazard, H10_ASecondRefusalIsNotTheAnswerOfAStop) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -134,7 +133,7 @@ TEST(Hazard, H10_ASecondRefusalIsNotTheAnswerOfAStop) {
   expect_no_mix_up(world);
 }
 
-// ... and where it was a stop that was cut, the stops that follow it, one an axis, wait for the quiet.
+// If a stop was cut in two, the following stops, one for each axis, wait for the silence.
 TEST(Hazard, H10_AStopCutInTwoIsAnsweredTwice) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -145,7 +144,7 @@ TEST(Hazard, H10_AStopCutInTwoIsAnsweredTwice) {
   expect_no_mix_up(world);
 }
 
-// Garbage was no answer: the true one may still come.
+// Garbage was not the answer: the true answer may still come.
 TEST(Hazard, H10_GarbageBeforeTheAnswer) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -155,7 +154,7 @@ TEST(Hazard, H10_GarbageBeforeTheAnswer) {
   expect_no_mix_up(world);
 }
 
-// The last probe but one is answered late, and the last is refused after the barrier: no command's refusal.
+// The last probe but one is answered late, and the last is refused after the barrier. No other command was refused.
 TEST(Hazard, H02_AProbeGivenUpIsRefused) {
   for (int late = 40; late < 200 && !HasFailure(); late += 3) {
     World world(quiet());
@@ -174,7 +173,7 @@ TEST(Hazard, H02_AProbeGivenUpIsRefused) {
   }
 }
 
-// An answer to an abandoned probe comes after the barrier, while another line waits for its own.
+// The answer to an abandoned probe is received after the barrier, while another line waits for its answer.
 TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
   for (int late = 40; late < 200 && !HasFailure(); late += 3) {
     World world(quiet());
@@ -194,8 +193,8 @@ TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
   }
 }
 
-// The OK of a stop that is written inside a barrier comes after the identity that was requested before it. Meanwhile a
-// motion's setting waits for the barrier to pass.
+// The OK of a stop that is written inside a barrier is received after the identity requested before it. Meanwhile a
+// motion's setting waits for the end of the barrier.
 TEST(Hazard, H02_AStopInsideABarrier) {
   int inside = 0;
   for (int at = 500; at < 580 && !HasFailure(); at += 2) {
@@ -219,7 +218,7 @@ TEST(Hazard, H02_AStopInsideABarrier) {
   EXPECT_GT(inside, 0);
 }
 
-// What comes just after the identity is nobody's.
+// A line just after the identity belongs to no command.
 TEST(Hazard, H02_TheBarrierEndsWithSilence) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -232,8 +231,8 @@ TEST(Hazard, H02_TheBarrierEndsWithSilence) {
   EXPECT_GE(world.now() - asked, milliseconds(50)) << world.replay();
 }
 
-// Seeds 201536 and 303141: the line was lost while an identity was requested, and a slow controller still sends it. It
-// is taken for the new one. Answers to stops that were written before that must not match anything.
+// Seeds 201536 and 303141: the line was lost while an identity was requested, and a slow controller still sends it. The
+// gateway takes it for the new one. Answers to stops that were written before must not match any command.
 void stop_over_a_reopened_line(const std::vector<std::string>& answers) {
   World world(quiet());
   world.device().set_answer_delay(milliseconds(400), world.now());
@@ -256,10 +255,10 @@ void stop_over_a_reopened_line(const std::vector<std::string>& answers) {
 
 TEST(Hazard, H02_TheSilenceAfterAReconnect) { stop_over_a_reopened_line({"NG\r\n"}); }
 
-// The end of the first answer is lost.
+// The first answer loses its line end.
 TEST(Hazard, H02_HalfALineInTheSilence) { stop_over_a_reopened_line({"NG", "NG\r\n"}); }
 
-// Every answer comes twice, with a pause in the middle of the second one.
+// Returns faults that double every answer, with a pause in the middle of the second one.
 Faults doubled_and_split() {
   Faults faults;
   faults.double_reply = faults.split = 1;
@@ -287,7 +286,7 @@ TEST(Hazard, H09_HalfALineIsNotJoinedToTheAnswerOfAStop) {
   }
 }
 
-// Longer than any answer: what was cut off is missing.
+// The line is longer than any answer, so part of it was cut off.
 TEST(Hazard, H09_ALineWithoutEndIsNoAnswer) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -303,7 +302,7 @@ TEST(Line, EachQuestionHasItsOwnAnswer) {
       << world.replay();
 }
 
-// On a dead line a try follows the other after 5 s in the end, and not without pause.
+// On a dead line the time between two attempts grows to 5 s.
 TEST(Line, IsReopenedEverMoreSlowly) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -317,7 +316,7 @@ TEST(Line, IsReopenedEverMoreSlowly) {
   EXPECT_GE(world.wire().commands().size() - first, 20u) << world.replay();
 }
 
-// Another unit has come in its place without any restart: the *IDN? of the barrier shows it.
+// Another unit has replaced the first without any restart: the *IDN? of the barrier shows it.
 TEST(Hazard, H32_AnotherUnitAnswersInABarrier) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -328,7 +327,7 @@ TEST(Hazard, H32_AnotherUnitAnswersInABarrier) {
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr("2106001002"));
 }
 
-// A text that cannot be the last line is not the answer to ?:CMD: that answer is still to come.
+// A text that cannot be the last line is not the answer to ?:CMD; the real answer is still to come.
 TEST(Hazard, H10_GarbageBeforeTheLineBefore) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

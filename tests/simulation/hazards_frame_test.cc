@@ -1,4 +1,4 @@
-// Hazard 27: somebody sets coordinates again while another's program runs (manual 45) PSET:, 63) R:, 64) RC:).
+// Hazard 27: a caller sets coordinates again while another caller's program runs (manual 45) PSET:, 63) R:, 64) RC:).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ class HazardOfFrames : public testing::Test {
   HazardOfFrames() { EXPECT_TRUE(world.run_until_up()); }
 
   std::uint64_t frame() { return world.controller().state().frame_epoch; }
-  // And lets the transaction come to its own end.
+  // Executes a line and waits for the end of the transaction.
   std::vector<std::string> execute(const std::string& line) {
     auto said = simulation::execute(world, {line});
     world.run_for(milliseconds(200));
@@ -58,7 +58,7 @@ TEST_F(HazardOfFrames, H27_ATargetOfTheFrameBeforeIsRefused) {
   }
 }
 
-// A target that waited for its turn is one of the frame before, too.
+// A target that has waited for its turn also belongs to the previous frame.
 TEST_F(HazardOfFrames, H27_ATargetThatHasWaited) {
   move_by(world, {{1, 20'000}});
   world.run_for(milliseconds(50));
@@ -67,7 +67,7 @@ TEST_F(HazardOfFrames, H27_ATargetThatHasWaited) {
     ended = ended || event.kind == ExecuteEvent::Kind::ended;
   });
   EXPECT_EQ(reason_of(go_to(1000, frame())),
-            Reason::unspecified);  // that of the first motion, which is the next to end
+            Reason::unspecified);  // reason of the first motion, which is the next to end
   ASSERT_TRUE(world.run_until([&] { return ended; }, seconds(10))) << world.replay();
   Motion last;
   ASSERT_TRUE(world.run_until(
@@ -85,7 +85,7 @@ TEST_F(HazardOfFrames, H27_ATargetThatHasWaited) {
   EXPECT_EQ(written(world, "AP:"), 0) << world.replay();
 }
 
-// A refused line shifts nothing; one whose answer was lost may have.
+// A refused line changes no frame. A line whose answer was lost may have changed it.
 TEST_F(HazardOfFrames, H27_RefusedOrInDoubt) {
   const std::uint64_t before = frame();
   EXPECT_EQ(execute("C:10"), std::vector<std::string>{"OK"});
@@ -98,7 +98,7 @@ TEST_F(HazardOfFrames, H27_RefusedOrInDoubt) {
   EXPECT_GT(frame(), before) << world.replay();
 }
 
-// The travel limits count from the origin that was found.
+// The travel limits count from the origin found by homing.
 TEST_F(HazardOfFrames, H27_TheOriginIsNoLongerTheOneThatWasFound) {
   home(world, AxisSet::all());
   outcome_of(world, 1);

@@ -1,5 +1,5 @@
-// Hazards of what a bad line and a strange device write: late probes, merged lines, NG_I, text that is meant for a
-// terminal. Numbers as in the table of what can go wrong on a shared line.
+// Hazards of bytes from a bad line or an unexpected device: late probes, merged lines, NG_I, text that is meant for a
+// terminal. The numbers are those of device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ Script instead_of_answer(World& world, std::string prefix, std::string bytes, in
   };
 }
 
-// Replaces the first line that begins with `prefix` by the same with a NUL in it, which is answered by NG_I.
+// Replaces the first line that begins with `prefix` by the same line with a NUL in it, which is answered by NG_I.
 Script with_a_nul(std::string prefix) {
   return [prefix, done = false](LineKind kind, const std::string& line) mutable -> Scripted {
     if (done || kind != LineKind::command || !line.starts_with(prefix)) return {};
@@ -35,12 +35,13 @@ Script with_a_nul(std::string prefix) {
   };
 }
 
-// The answer to each probe comes after its time limit: outstanding answers are not taken for those of other commands.
+// The answer to each probe comes after its time limit: the gateway does not take outstanding answers for those of other
+// commands.
 TEST(Hazard, H02_OwedAnswersOfProbesAreSwallowed) {
   for (const std::string probe : {"?:CMD", "*IDN?"}) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that the controller has not restarted
     int unexpected = 0;
     world.on_news = [&](const Event& event) { unexpected += std::holds_alternative<UnexpectedLine>(event) ? 1 : 0; };
     bool lost = false, late = false;
@@ -62,7 +63,7 @@ TEST(Hazard, H02_OwedAnswersOfProbesAreSwallowed) {
   }
 }
 
-// ?:CMD, then *IDN?, then 50 ms of silence; and a stop in the midst of it.
+// The barrier is ?:CMD, then *IDN?, then 50 ms of silence, with a stop in the middle.
 TEST(Hazard, H02_NothingButAStopBeforeTheBarrierHasPassed) {
   for (int after = 0; after < 620 && !HasFailure(); after += 20) {
     World world(quiet());
@@ -96,7 +97,7 @@ TEST(Hazard, H02_NothingButAStopBeforeTheBarrierHasPassed) {
     ASSERT_TRUE(world.run_until([&] { return silence && written(world, "C:21", first) == 1; }, seconds(3)))
         << world.replay();
     EXPECT_GE(*silence, milliseconds(50)) << "asked " << after << "\n" << world.replay();
-    // Written at once, and again after the first line that comes in during the barrier.
+    // A stop is written at once, and again after the first line that is received during the barrier.
     EXPECT_GE(stops_written, stops ? 1 : 0) << world.replay();
     EXPECT_LE(stops_written, stops ? 2 : 0) << world.replay();
     EXPECT_EQ(written(world, "C:11", first), 1) << "sent again\n" << world.replay();
@@ -112,7 +113,7 @@ TEST(Hazard, H09_LinesThatComeTogether) {
   EXPECT_EQ(world.barriers(), 0u);
 }
 
-// The end between them is lost: neither is taken.
+// The line end between them is lost: neither answer is taken.
 TEST(Hazard, H09_LinesMergedIntoOne) {
   for (const char* merged : {"1V2.00.000\r\n", "V2.00.000OK\r\n", "OKV2.00.000\r\n", "V2.00.0001\n1\r\n"}) {
     World world(quiet());
@@ -124,7 +125,7 @@ TEST(Hazard, H09_LinesMergedIntoOne) {
   }
 }
 
-// A line longer than any answer is none, whatever it begins with; and what follows it is read.
+// A line longer than any answer is not an answer, however it begins. The line after it is read.
 TEST(Hazard, H09_AnEndlessLine) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -163,7 +164,7 @@ TEST(Hazard, H10_AStartIsNotSentAgain) {
   }
 }
 
-// The controller took the start and the line made an NG_I of its OK: the axis is seen to move, and to arrive.
+// The controller accepted the start, and the line changed its OK into NG_I: the axis is seen to move, and to arrive.
 TEST(Hazard, H10_ARefusalThatWasNone) {
   for (const std::string start : {"G:", "HRT:"}) {
     World world(quiet());
@@ -191,7 +192,7 @@ class HazardH42 : public testing::Test {
     };
   }
 
-  // What is written into a log, on a page or a terminal as it stands.
+  // Checks a text that is written unchanged to a log, a page or a terminal.
   void look_at(const std::string& text) {
     ++texts;
     EXPECT_LT(text.size(), 400u) << text;
@@ -207,7 +208,7 @@ class HazardH42 : public testing::Test {
     world.wire().set_script(instead_of_answer(world, question, bytes + "\r\n", answers));
   }
 
-  // Clears the screen, sets the title, colours what follows; and is long.
+  // Clears the screen, sets the title, colours the following text, and is long.
   const std::string hostile = "\x1b[2J\x1b]0;owned\x07\xC2\x9B" + std::string("31m") + std::string(180, 'A');
   World world;
   int texts = 0;
@@ -229,7 +230,7 @@ TEST_F(HazardH42, AsAnAnswer) {
   EXPECT_GT(texts, 5);
 }
 
-// One that comes twice is believed.
+// An identity that is read twice alike is believed.
 TEST_F(HazardH42, AsTheIdentityAtTheHandshake) {
   answer_of("*IDN?", "SIGMAKOKI," + hostile + ",2106001001,V2.00.000", 2);
   world.run_for(milliseconds(300));

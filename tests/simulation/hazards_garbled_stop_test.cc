@@ -1,4 +1,4 @@
-// A stop on a line that garbles or loses replies. Numbers as in the table of what can go wrong on a shared line.
+// Hazards of a stop on a line that garbles or loses replies. The numbers are those of device/shrc203/HAZARDS.md.
 #include <gtest/gtest.h>
 
 #include "tests/simulation/scenario.h"
@@ -19,7 +19,7 @@ class HazardOfGarbledStops : public testing::Test {
     ASSERT_TRUE(world.device().busy(1));
   }
 
-  // From the request to the report.
+  // Stops, and returns the time from the request to the report.
   Duration stop(std::optional<Duration> limit) {
     const TimePoint asked = world.now();
     auto context = world.context("stopper");
@@ -33,7 +33,7 @@ class HazardOfGarbledStops : public testing::Test {
   std::optional<StopReport> report;
 };
 
-// The reply to L: is garbage and every reading of a prebuffer is lost; the status is not.
+// The reply to L: is garbage and every reading of a prebuffer is lost, but the status is received.
 TEST_F(HazardOfGarbledStops, H54_AValidStatusIsTheAnswer) {
   std::optional<TimePoint> read;
   world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {
@@ -56,7 +56,7 @@ TEST_F(HazardOfGarbledStops, H54_AValidStatusIsTheAnswer) {
   EXPECT_EQ(report->axes[0].position_pulses, world.device().position(1));
 }
 
-// Nothing can be read: the caller learns that by their own limit, and of what.
+// No reading succeeds: the caller is notified of that, and of its axes, within the caller's own time limit.
 TEST_F(HazardOfGarbledStops, H54_TheCallersLimitIsKept) {
   world.wire().set_script([](LineKind kind, const std::string&) {
     return Scripted{.drop = kind != LineKind::command, .delay = {}, .instead = {}};

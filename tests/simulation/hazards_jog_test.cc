@@ -1,5 +1,5 @@
-// Hazards of jogs: axes that run until somebody stops them (manual 88) J:, 93) JD:). Numbers as in the table of what
-// can go wrong on a shared line.
+// Hazards of jogs: axes that run until a caller stops them (manual 88) J:, 93) JD:). The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ class HazardOfJogs : public testing::Test {
 
   using Axes = std::vector<JogRequest::Axis>;
 
-  // Its number; what became of the start is in `refused`.
+  // Starts a jog and returns its number. `refused` is the reason if the start is refused.
   MotionId jog(const Axes& axes, RequestContext context) {
     return world.controller().jog({axes, std::move(context)}, world.now(), [this](const Result<Motion>& motion) {
       refused = motion ? Reason::unspecified : motion.error().reason;
@@ -38,7 +38,7 @@ class HazardOfJogs : public testing::Test {
   }
   MotionId jog(const Axes& axes) { return jog(axes, world.context("anna")); }
 
-  // As a client that is well does.
+  // Renews the jog as a working client does.
   void renew_for(MotionId id, Duration duration) {
     const TimePoint end = world.now() + duration;
     while (world.now() < end) {
@@ -67,7 +67,7 @@ TEST_F(HazardOfJogs, RunsWhileItIsRenewedAndEndsWhenItsCallerWants) {
   world.controller().end_jog(id, {}, world.now());
   EXPECT_EQ(outcome(id).state, MotionState::succeeded) << world.replay();
   EXPECT_FALSE(world.device().busy(1));
-  // S is 1000 pulses/s, and the start took some milliseconds of the three seconds.
+  // S is 1000 pulses/s, and the start took a few milliseconds of the three seconds.
   EXPECT_NEAR(static_cast<double>(world.device().position(1)), 3000, 100) << world.replay();
 }
 
@@ -86,7 +86,8 @@ class HazardOfJogsAt : public HazardOfJogs, public testing::WithParamInterface<i
   HazardOfJogsAt() : HazardOfJogs(at_baud(GetParam())) {}
 };
 
-// 500 ms and two cycles of the line: the longest exchange that may be ahead of it, and its own line.
+// The stop comes after 500 ms and two cycles of the line: the longest exchange that may be ahead of the stop, and the
+// stop itself.
 TEST_P(HazardOfJogsAt, H29_SilenceStopsIt) {
   const MotionId id = jog({{1, 1, pulses(20'000)}});
   renew_for(id, seconds(2));
@@ -104,7 +105,7 @@ TEST_P(HazardOfJogsAt, H29_SilenceStopsIt) {
 
 INSTANTIATE_TEST_SUITE_P(Baud, HazardOfJogsAt, testing::Values(9600, 38400));
 
-// The caller falls silent before it has started: it never starts.
+// The caller falls silent before the jog has started: the jog never starts.
 TEST_F(HazardOfJogs, H29_SilenceWhileItWaits) {
   move_by(world, {{1, 100'000}});
   world.run_for(milliseconds(100));
@@ -115,7 +116,7 @@ TEST_F(HazardOfJogs, H29_SilenceWhileItWaits) {
   EXPECT_EQ(world.device().position(1), 100'000);
 }
 
-// The answer to its stop is lost: it is stopped again.
+// The stop command is lost: the jog is stopped again.
 TEST_F(HazardOfJogs, H29_ALostStopIsSentAgain) {
   const MotionId id = jog({{1, 1, {}}});
   renew_for(id, seconds(1));
@@ -132,7 +133,7 @@ TEST_F(HazardOfJogs, ASpeedIsChangedOnTheWayAndTheOldOneComesBack) {
   EXPECT_TRUE(world.controller().renew_jog(id, {{1, 1, pulses(2'000)}}, world.now()));
   renew_for(id, seconds(1));
   EXPECT_EQ(written(world, "JD:1F2000"), 1);
-  // 5000 pulses/s for a second and 2000 for another, but for the ramps and the lines.
+  // 5000 pulses/s for a second and 2000 for another, apart from the ramps and the lines.
   EXPECT_NEAR(static_cast<double>(world.device().position(1)), 7000, 400);
   world.controller().end_jog(id, {}, world.now());
   outcome(id);
@@ -140,7 +141,7 @@ TEST_F(HazardOfJogs, ASpeedIsChangedOnTheWayAndTheOldOneComesBack) {
   EXPECT_EQ(execute(world, {"?:D1"}), std::vector<std::string>{"S1000F50000R100"}) << world.replay();
 }
 
-// 93) does not say whether F is D:'s or JD:'s once it has ended.
+// 93) does not say which F applies after the jog: that of D: or that of JD:.
 TEST(HazardOfJogsEnd, H28_TheSpeedAfterwardsUnderBothReadings) {
   for (const char* reading : {"becomes_maximum", "forgotten"}) {
     auto setup = quiet();
@@ -176,14 +177,14 @@ TEST_F(HazardOfBoundedJogs, EndsBeforeTheTravelLimit) {
     EXPECT_EQ(motion.state, MotionState::stopped) << world.replay();
     EXPECT_EQ(reason_of(motion), Reason::outside_travel);
     EXPECT_LE(std::abs(world.device().position(1)), 20'000) << world.replay();
-    // Not much before it, either: the way of 0.6 s and of the slowing down.
+    // Not much before the limit, either: the distance of 0.6 s and of the deceleration.
     EXPECT_GE(std::abs(world.device().position(1)), 20'000 - 6'200 - 2'500) << world.replay();
   }
 }
 
 class HazardOfBoundedJogsWhen : public HazardOfBoundedJogs, public testing::WithParamInterface<int> {};
 
-// An answer is lost as the limit comes near, so that the stop has to wait as long as anything may.
+// An answer is lost near the limit, so that the stop waits for the longest possible time.
 TEST_P(HazardOfBoundedJogsWhen, AnAnswerIsLost) {
   const MotionId id = jog({{1, 1, pulses(10'000)}});
   renew_for(id, milliseconds(GetParam()));
@@ -195,7 +196,7 @@ TEST_P(HazardOfBoundedJogsWhen, AnAnswerIsLost) {
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, HazardOfBoundedJogsWhen, testing::Range(900, 1500, 50));
 
-// Near the limit it speeds up no more than the way still allows, and comes nearer so.
+// Near the limit the axis accelerates only as far as the remaining distance allows, and so gets nearer to the limit.
 TEST_F(HazardOfBoundedJogs, ASpeedThatTheWayDoesNotAllow) {
   moved(world, {{1, 17'400}});
   const MotionId id = jog({{1, 1, pulses(8'000)}});
@@ -205,7 +206,7 @@ TEST_F(HazardOfBoundedJogs, ASpeedThatTheWayDoesNotAllow) {
   EXPECT_EQ(written(world, "JD:1F2000"), 1) << world.replay();
 }
 
-// The answer to its start is lost: what may run by then is stopped before the limit all the same.
+// The answer to the start is lost: an axis that may run is still stopped before the limit.
 TEST_F(HazardOfBoundedJogs, AStartInDoubt) {
   moved(world, {{1, 19'000}});
   world.wire().set_script(drop_first(world, LineKind::reply, "G:1"));
@@ -244,7 +245,7 @@ TEST_F(HazardOfBoundedJogs, TooFastIsRefusedAndASlowAxisStartsSlowly) {
   EXPECT_EQ(execute(world, {"?:D2"}), std::vector<std::string>{"S1000F50000R100"}) << world.replay();
 }
 
-// Nobody can stop it while the line is away; it is stopped as soon as the line is back.
+// No stop can be sent while the line is lost. The jog is stopped as soon as the line is back.
 TEST_F(HazardOfJogs, H31_TheLineIsLostUnderIt) {
   const MotionId id = jog({{1, 1, {}}});
   renew_for(id, seconds(1));
@@ -256,7 +257,7 @@ TEST_F(HazardOfJogs, H31_TheLineIsLostUnderIt) {
   ASSERT_TRUE(world.run_until_up()) << world.replay();
 }
 
-// The stop at the line's return is lost: it is stopped again.
+// The stop at the line's return is lost: the jog is stopped again.
 TEST_F(HazardOfJogs, H31_TheStopAtTheLinesReturnIsLost) {
   const MotionId id = jog({{1, 1, {}}});
   renew_for(id, seconds(1));
@@ -267,7 +268,7 @@ TEST_F(HazardOfJogs, H31_TheStopAtTheLinesReturnIsLost) {
   ASSERT_TRUE(world.run_until_up()) << world.replay();
 }
 
-// NG to its start may be another line's: what runs all the same is stopped.
+// NG to the start may answer another line: an axis that still runs is stopped.
 TEST_F(HazardOfJogs, H03_ARefusedStartThatWasNone) {
   world.wire().set_script([this](LineKind kind, const std::string&) {
     const bool answer = kind == LineKind::reply && world.wire().commands().back() == "G:1";
@@ -291,7 +292,7 @@ TEST_F(HazardOfJogs, AnothersStopStopsIt) {
   EXPECT_THAT(motion.problem->message, HasSubstr("bert"));
 }
 
-// A stop of one of its axes ends the jog of all: axes that were requested together run together.
+// A stop of one axis ends the jog of all axes, because axes that were requested together run together.
 TEST_F(HazardOfJogs, AStopOfOneAxisStopsAll) {
   const MotionId id = jog({{1, -1, {}}, {3, 1, {}}});
   renew_for(id, seconds(1));
@@ -302,7 +303,7 @@ TEST_F(HazardOfJogs, AStopOfOneAxisStopsAll) {
   EXPECT_THAT(outcome(id).problem->message, HasSubstr("bert"));
 }
 
-// Between set and go: the jog is not started, and what it set does not run on another's start.
+// A stop between set and go: the jog is not started, and its setting does not run with another caller's start.
 TEST(HazardOfJogsEnd, H12_AJogThatWasSetAndNotStarted) {
   for (const char* reading : {"yes", "no"}) {
     auto setup = quiet();
@@ -343,7 +344,7 @@ TEST(HazardOfJogsEnd, H35_ItEndsWithTheLease) {
   EXPECT_EQ(reason_of(*world.controller().find_motion(id)), Reason::lease_lost) << world.replay();
 }
 
-// A gateway that waits for motions to finish does not wait for one that never does.
+// A gateway that waits for motions to finish does not wait for a jog, which never finishes.
 TEST(HazardOfJogsEnd, TheGatewayEnds) {
   auto setup = quiet();
   setup.profile.at_exit = AtExit::finish;
@@ -362,7 +363,7 @@ TEST(HazardOfJogsEnd, TheGatewayEnds) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// J: and JD: by themselves have nobody who would stop what they start.
+// Execute refuses J: and JD:, because no watchdog would stop an axis that they start.
 TEST_F(HazardOfJogs, ExecuteDoesNotJog) {
   EXPECT_EQ(execute(world, {"J:1+", "G:1"}), std::vector<std::string>{"INVALID_REQUEST"});
   EXPECT_EQ(execute(world, {"JD:1F100"}), std::vector<std::string>{"INVALID_REQUEST"});

@@ -1,5 +1,5 @@
-// Hazards of sharing: who may move what, and who was stopped. Numbers as in the table of what can go wrong on a shared
-// line.
+// Hazards of sharing: the right to move axes, and callers who were stopped. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,8 @@ class HazardOfSharing : public testing::Test {
     asked.lease = token;
     return asked;
   }
-  // Why it was refused at once; unspecified where it was taken. What comes later is in the world's outcomes.
+  // Returns the reason of an immediate refusal, or unspecified if the motion was accepted. Later outcomes are in the
+  // world's outcomes.
   Reason move(const std::string& who, LeaseToken token, int axis, std::int64_t way) {
     MoveRequest request = move_of(world, {{axis, way}}, true);
     request.context = context(who, token);
@@ -78,7 +79,7 @@ TEST_F(HazardOfSharing, H35_AnExpiredLeaseStopsItsMotion) {
 }
 
 TEST_F(HazardOfSharing, H35_AMotionWhoseLeaseEndedWhileItWaited) {
-  // It runs for 14 s, and what it leaves in the registers must be read.
+  // The motion runs for 14 s, and its registers must be read afterwards.
   world.controller().execute({{"A:2+P700000", "G:2"}, context("bert", 0)}, world.now(), [](const ExecuteEvent&) {});
   const LeaseToken anna = lease("anna", kOne);
   world.run_for(seconds(1));
@@ -121,7 +122,8 @@ TEST_F(HazardOfSharing, H35_AMotionThatMayFinishFinishes) {
   EXPECT_GT(motion.ended - motion.created, seconds(12));
 }
 
-// Between set and go the lease expires: the start is never sent, and what was set does not run on another's.
+// The lease expires between set and go: the start is never sent, and the setting does not run with another caller's
+// start.
 TEST_F(HazardOfSharing, H35_ExpiryBetweenSetAndGo) {
   const LeaseToken token = lease("anna", kOne);
   world.run_for(seconds(9));
@@ -137,12 +139,12 @@ TEST_F(HazardOfSharing, H35_ExpiryBetweenSetAndGo) {
   EXPECT_EQ(world.device().position(1), 100) << world.replay();
 }
 
-// The reply to the set is there when the host wakes, before any timer: the lease has expired all the same.
-// After 12 s the controller may have restarted as well; after a tenth of a second it has not.
+// The reply to the set is received when the host wakes, before any timer: the lease has still expired. After 12 s the
+// controller may have restarted as well; after a tenth of a second it has not.
 TEST_F(HazardOfSharing, H36_NoStartAfterTheHostHasSlept) {
   for (const auto& [before, asleep] :
        {std::pair{milliseconds(1000), milliseconds(12'000)}, {milliseconds(9950), milliseconds(100)}}) {
-    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that the controller has not restarted
     const int starts = world.device().starts(1), lines = written(world, "G:"), sets = written(world, "MP:");
     const LeaseToken token = lease("anna", kOne);
     world.run_for(before);
@@ -163,7 +165,7 @@ TEST_F(HazardOfSharing, H21_ARestartEndsLeases) {
   EXPECT_THAT(told, HasSubstr("restarted"));
 }
 
-// A program has computed its targets before the controller restarted, and continues as if nothing had happened.
+// A program computed its targets before the controller restarted, and continues without noticing.
 TEST_F(HazardOfSharing, H21_WhatWasMeantForAnotherEpoch) {
   const std::uint64_t epoch = world.controller().state().device_epoch;
   for (const bool restarted : {false, true}) {
@@ -190,7 +192,7 @@ TEST_F(HazardOfSharing, H21_WhatWasMeantForAnotherEpoch) {
   }
 }
 
-// A loop asks for the next move as soon as the last has ended, whatever became of it.
+// A loop requests the next move as soon as the last has ended, with any outcome.
 TEST_F(HazardOfSharing, H53_AScanLoopStaysStopped) {
   for (const bool leased : {true, false}) {
     const LeaseToken token = leased ? lease("anna", kOne) : 0;
@@ -270,7 +272,7 @@ TEST_F(HazardOfSharing, H11_NobodyWritesIntoAPathsPrebuffer) {
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
 }
 
-// Settings of an axis and of the whole controller are its holder's, too; questions are everybody's.
+// Settings of an axis or of the whole controller need the lease; questions do not.
 TEST_F(HazardOfSharing, H52_SettingsNeedTheRightToTheirAxes) {
   const LeaseToken token = lease("anna", kOne);
   const auto execute_by = [&](const std::string& who, LeaseToken with, const std::string& line) {
@@ -288,7 +290,7 @@ TEST_F(HazardOfSharing, H52_SettingsNeedTheRightToTheirAxes) {
   EXPECT_EQ(execute_by("anna", token, "D:1S100F1000R100"), "OK");
 }
 
-// A motion that waited for its turn is withdrawn, and its caller asked.
+// A motion that waited for its turn is withdrawn, and its caller must rearm.
 TEST_F(HazardOfSharing, WhoWaitedWhenAnotherStoppedIsHeldBack) {
   EXPECT_EQ(move("anna", 0, 1, 100000), Reason::unspecified);
   EXPECT_EQ(move("bert", 0, 1, 100000), Reason::unspecified);

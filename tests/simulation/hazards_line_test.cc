@@ -1,4 +1,5 @@
-// Hazards of the line itself: whose answer is whose. Numbers as in the table of what can go wrong on a shared line.
+// Hazards of the line itself: the assignment of answers to commands. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ struct NumberQuestion {
   const char* answer;
 };
 
-// IN1 and OUT1 are on and W: is 0.1 s, so that most answers are the very digit that a completion of axis 1 is.
+// IN1 and OUT1 are on and W: is 0.1 s, so that most answers are the same digit as a completion of axis 1.
 constexpr std::string_view kSetWay = "?:M1";
 const NumberQuestion kNumberQuestions[] = {
     {"?:C1", "1"},   {"?:F1", "1"}, {"?:SLEEP", "0"}, {"?:BO", "1"}, {"?:BEEP", "1"}, {"?:AXIS", "6"},
@@ -33,7 +34,7 @@ void PrintTo(const NumberQuestion& question, std::ostream* out) { *out << questi
 
 class HazardH01 : public testing::TestWithParam<NumberQuestion> {
  protected:
-  // Asks at `offset` after `start` has set axis 1 going; the answer must be right, the axis number seen once.
+  // Asks at `offset` after `start` has started axis 1. The answer must be right, and the axis number must be seen once.
   void ask_during(World& world, const std::function<void()>& start, Duration offset, const std::string& while_moving) {
     const std::size_t outcomes = world.outcomes().size(), completions = world.completions().size();
     start();
@@ -66,7 +67,7 @@ TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAnOriginReturn) {
   for (Duration offset{}; offset < lasts + milliseconds(50) && !HasFailure(); offset += microseconds(1130)) {
     ask_at(offset);
   }
-  // Around the number itself, byte by byte: 260 us each at 38400 baud.
+  // Around the completion, byte by byte: 260 us each at 38400 baud.
   for (Duration offset = lasts - milliseconds(80); offset < lasts && !HasFailure(); offset += microseconds(260)) {
     ask_at(offset);
   }
@@ -83,7 +84,7 @@ TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAMove) {
   const auto& first = world.outcomes()[0];
   const Duration lasts = first.ended - first.created;
   for (Duration offset{}; offset < lasts + milliseconds(20) && !HasFailure(); offset += microseconds(730)) {
-    // What was set can be read as long as it is carried out.
+    // A setpoint can be read while it is executed.
     ask_during(world, move, offset, GetParam().line == kSetWay ? std::to_string(-way) : GetParam().answer);
   }
   EXPECT_EQ(world.barriers(), 0u) << world.replay();
@@ -91,7 +92,7 @@ TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAMove) {
 
 INSTANTIATE_TEST_SUITE_P(Questions, HazardH01, testing::ValuesIn(kNumberQuestions));
 
-// The first OK to D: comes `delay` late, while another's command waits. What both heard, in order.
+// Delays the first OK to D: by `delay`, while another caller's command waits. Returns the answers to both, in order.
 std::vector<std::string> heard_with_late_ok(World& world, Duration delay) {
   auto delayed = std::make_shared<bool>(false);
   world.wire().set_script([&world, delayed, delay](LineKind kind, const std::string&) -> Scripted {
@@ -113,7 +114,7 @@ std::vector<std::string> heard_with_late_ok(World& world, Duration delay) {
   return heard;
 }
 
-// Inputs and outputs can be read while a single motion runs, though their answer looks like its completion.
+// Inputs and outputs can be read while a single motion runs, although their answer looks like its completion.
 TEST(Hazard, H01_InputsAreReadDuringAMotion) {
   World world(quiet());
   world.device().set_inputs(1);
@@ -126,8 +127,8 @@ TEST(Hazard, H01_InputsAreReadDuringAMotion) {
   EXPECT_TRUE(world.device().busy(1));
 }
 
-// Seeds 402359 and 500862: a strange controller repeats the number of another axis around each of two answers. And one
-// of them alone, where the answer is lost.
+// Seeds 402359 and 500862: a faulty controller repeats the number of another axis around each of two answers. The last
+// flood has one answer alone, and loses the other.
 TEST(Hazard, H01_InputsAmidAFloodOfNumbers) {
   const std::vector<std::vector<std::string>> floods = {
       {"3\r\n3\r\n2\r\n3\r\n", "3\r\n2\r\n3\r\n"}, {"3\r\n1\r\n2\r\n", "1\r\n1\r\n2\r\n"}, {"3\r\n", "3\r\n2\r\n"}};
@@ -179,8 +180,8 @@ TEST(Hazard, H01_CompletionOfAnAxisThatNobodyAskedToMove) {
   }
 }
 
-// OK_D: the setting begins by itself when another axis has ended, before its G, and completes while a question that
-// came in between waits for its answer, which is lost.
+// OK_D: the setting starts without its G when another axis has ended, and completes while a question sent in between
+// waits for its answer, which is lost.
 TEST(Hazard, H01_CompletionOfASettingThatChains) {
   int chained = 0;
   for (int ahead = 0; ahead < 60 && !HasFailure(); ++ahead) {
@@ -215,7 +216,7 @@ TEST(Hazard, H02_OkWithinTheTimeLimit) {
   EXPECT_EQ(world.barriers(), 0u);
 }
 
-// The late OK comes anywhere in or after the barrier, is nobody's, and the next command gets its own.
+// The late OK is received during or after the barrier and belongs to no command; the next command gets its own answer.
 TEST(Hazard, H02_LateOkIsNotTheNextCommandsAnswer) {
   for (int delay = 550; delay < 1500 && !HasFailure(); delay += 25) {
     World world(quiet());
@@ -223,7 +224,7 @@ TEST(Hazard, H02_LateOkIsNotTheNextCommandsAnswer) {
     EXPECT_THAT(heard_with_late_ok(world, milliseconds(delay)), ElementsAre("REPLY_TIMED_OUT", "OK"))
         << delay << " ms late\n"
         << world.replay();
-    // After the line in doubt nothing but the barrier's probes is sent before its last one has been answered.
+    // After the line in doubt only the barrier's probes are sent until the last probe has been answered.
     const auto& lines = world.wire().commands();
     const auto doubtful = std::ranges::find(lines, "D:1S100F1000R100");
     const auto next = std::find_if(doubtful + 1, lines.end(),
@@ -233,7 +234,7 @@ TEST(Hazard, H02_LateOkIsNotTheNextCommandsAnswer) {
   }
 }
 
-// A digit corrupted on the line is not published: a jump that no stage makes is read again.
+// A digit corrupted on the line is not published: a jump that no stage can make is read again.
 TEST(Hazard, H08_CorruptedDigitOfAPosition) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -250,7 +251,8 @@ TEST(Hazard, H08_CorruptedDigitOfAPosition) {
   EXPECT_EQ(corrupted, 1);
 }
 
-// Every line in two parts with a pause between them, both ways of a motion, and a line that never ends.
+// Every line comes in two parts with a pause between them, during a motion of two axes in opposite directions; then a
+// line that never ends.
 TEST(Hazard, H09_PartialLines) {
   auto setup = quiet();
   setup.faults.split = 1;
@@ -274,9 +276,9 @@ TEST(Hazard, H09_UnterminatedLineIsNeverACompleteOne) {
   EXPECT_THAT(execute(world, {"?:V"}), ElementsAre("V2.00.000"));
 }
 
-// One flipped bit makes S of a speed greater than F. A value that no D: can set is read again.
+// One flipped bit makes a speed's S greater than its F. A value that no D: can set is read again.
 TEST(Hazard, H08_ASpeedMisreadIsNotPutBack) {
-  const std::string misread = "S9000F500R100";  // each within its range, but manual 89) D: has S below F
+  const std::string misread = "S9000F500R100";  // each within its range, but manual 89) D: requires S below F
   World world(quiet());
   int asked = 0;
   world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {

@@ -1,5 +1,5 @@
-// Hazards of the link: unplugged, another unit, somebody else on the line. Numbers as in the table of what can go wrong
-// on a shared line.
+// Hazards of the link: unplugged, another unit, another program on the line. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr const char* kOther = "2106001002";
 
-// What refuses motions now, and what helps.
+// Returns the problem that refuses motions now, with its hint.
 Problem why_not_up(World& world) {
   const auto up = world.controller().check_up();
   return up ? Problem{} : up.error();
@@ -24,7 +24,7 @@ Problem why_not_up(World& world) {
 
 bool says_idle(World& world, int axis) { return world.controller().state().axis(axis).busy == false; }
 
-// Unplugged at any instant from before the first line of a move to its middle.
+// The cable is unplugged at any instant from before the first line of a move to its middle.
 TEST(Hazard, H31_UnpluggedInMidMove) {
   int unknown = 0;
   for (int step = 0; step < 240 && !HasFailure(); ++step) {
@@ -87,8 +87,7 @@ TEST(Hazard, H32_TheConfiguredUnitAndNoOther) {
   moved(world, {{1, 100}});
 }
 
-// Without a configured number the first unit stays the one until the daemon ends (profile.h).
-// Each question of the handshake is asked three times before the connection counts as none.
+// Each question of the handshake is asked three times before the connection attempt fails.
 TEST(Hazard, H31_AnAnswerOfTheHandshakeMayBeLostTwice) {
   for (const int lost : {2, 3}) {
     World world(quiet());
@@ -102,6 +101,7 @@ TEST(Hazard, H31_AnAnswerOfTheHandshakeMayBeLostTwice) {
   }
 }
 
+// Without a configured serial number, the first unit stays the accepted unit until the daemon ends (profile.h).
 TEST(Hazard, H32_TheFirstUnitStaysTheOne) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -123,7 +123,8 @@ TEST(Hazard, H32_TheFirstUnitStaysTheOne) {
   moved(world, {{1, 100}});
 }
 
-// Swapped behind a serial server or a hub: the line never goes down, and a barrier or a restart shows it.
+// The unit is swapped beyond a serial server or a hub: the line never goes down, and a barrier or a restart detects the
+// swap.
 TEST(Hazard, H32_SwappedWithoutAnUnplug) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -138,7 +139,8 @@ TEST(Hazard, H32_SwappedWithoutAnUnplug) {
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr(kOther));
 }
 
-// A digit of the very first identity turned on the line: the unit is none the less accepted when it is read right.
+// A digit of the very first identity was changed on the line: the unit is still accepted once its identity is read
+// correctly.
 TEST(Hazard, H32_AMisreadNumberDoesNotStay) {
   World world(quiet());
   bool turned = false;
@@ -152,7 +154,7 @@ TEST(Hazard, H32_AMisreadNumberDoesNotStay) {
   EXPECT_EQ(world.controller().state().serial_number, "2106001001");
 }
 
-// One damaged byte in an identity, in a barrier or at a connect: the unit is asked again, and stays the one.
+// One byte of an identity is damaged, in a barrier or at a connect: the unit is asked again, and stays accepted.
 TEST(Hazard, H32_AGarbledIdentityIsNoOtherUnit) {
   for (const bool connects : {false, true}) {
     World world(quiet());
@@ -179,7 +181,7 @@ TEST(Hazard, H32_AGarbledIdentityIsNoOtherUnit) {
   }
 }
 
-// Another program has the line open too and reads the answer to what it sends: only ?:CMD shows it.
+// Another program also has the line open, and reads the answers to its commands: only ?:CMD detects it.
 TEST(Hazard, H33_ForeignTrafficIsAFault) {
   for (const std::string foreign : {"M:1+P500", "PSET:1+P77", "Q:", "C:20"}) {
     World world(quiet());

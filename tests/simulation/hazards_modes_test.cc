@@ -1,5 +1,4 @@
-// Hazards of waits, sleep, dialects and the modes out of HOST. Numbers as in the table of what can go wrong on a shared
-// line.
+// Hazards of waits, sleep, dialects and non-host modes. The numbers are those of device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using Lines = std::vector<std::string>;
 
-// What a line is: motion needs the lease of all that it concerns.
+// A command that can cause motion needs the lease of all axes concerned.
 class HazardOfHiddenMotion : public testing::TestWithParam<const char*> {};
 
 TEST_P(HazardOfHiddenMotion, NeedsTheRightToMove) {
@@ -40,7 +39,7 @@ TEST_P(HazardOfHiddenMotion, NeedsTheRightToMove) {
   EXPECT_TRUE(row->row->moves());
 }
 
-// 15: the end of a wait starts what is in the prebuffer. 26: a stage that wakes up goes back to its place.
+// 15: the end of a wait starts the setpoint in the prebuffer. 26: a stage that wakes up returns to its place.
 INSTANTIATE_TEST_SUITE_P(H15H26, HazardOfHiddenMotion, testing::Values("WT:1,0", "WI:1,C", "WT:W,0", "SLEEP:0"));
 
 TEST(Hazard, H15_AWaitLeftBehindIsRefused) {
@@ -84,7 +83,7 @@ TEST(Hazard, H16_NorDoTheyInAPath) {
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
 }
 
-// C is an axes letter, too; and a line that cancels one wait may set another.
+// C is also a letter for axes, and a line that cancels one wait may set another.
 TEST(Hazard, H16_NoWayRound) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -112,7 +111,8 @@ TEST(Hazard, H16_ArmedIsTold) {
   EXPECT_FALSE(world.controller().state().axis(1).armed) << world.replay();
 }
 
-// Silence and a fault, no guesses: nothing but what works in every dialect is sent until somebody has put it right.
+// The gateway sends only commands that work in every dialect, and reports a fault, until a person has set the dialect
+// back. It guesses nothing.
 TEST(Hazard, H23_AnotherDialect) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -143,7 +143,7 @@ TEST(Hazard, H24_MemorySwitchesAreReachedAlone) {
                                ended = true;
                                EXPECT_FALSE(event.problem) << event.problem->message << "\n" << world.replay();
                              });
-  // Others ask all the while, and so does the gateway.
+  // Other callers ask questions all the time, and so does the gateway.
   int refused = 0;
   while (!ended && world.now() < TimePoint(std::chrono::minutes(5))) {
     world.controller().execute({{"?:D"}, world.context("other")}, world.now(), [&](const ExecuteEvent& event) {
@@ -191,7 +191,7 @@ TEST(Hazard, H25_NoMotionOnTheWay) {
   EXPECT_EQ(written(world, "M") + written(world, "P:"), 0) << world.replay();
 }
 
-// The line is lost out there: what the gateway has begun it takes back.
+// The line is lost in a non-host mode: the gateway ends the visit that it has begun.
 TEST(Hazard, H24_TheWayBackAfterALossOfTheLine) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -247,7 +247,7 @@ TEST(Hazard, H25_AStopEndsTheProgram) {
   moved(world, {{1, 100}});
 }
 
-// The controller has accepted the command whose answer is lost: the return to HOST depends on what ?:MODE reports.
+// The controller has accepted the command whose answer is lost: the return to HOST depends on the reply to ?:MODE.
 class HazardOfLostAnswers : public testing::TestWithParam<const char*> {};
 
 TEST_P(HazardOfLostAnswers, TheWayBackIsFound) {
@@ -285,7 +285,7 @@ TEST(Hazard, H25_AProgramWhoseLineWasLostIsEnded) {
   EXPECT_EQ(world.controller().state().mode, "HOST");
 }
 
-// Saving takes long, and is no restart.
+// Saving takes long, and does not count as a restart.
 TEST(Hazard, H25_SavingTakesLong) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -301,13 +301,13 @@ TEST(Hazard, H25_SavingTakesLong) {
   EXPECT_EQ(world.controller().state().device_epoch, epoch) << world.replay();
 }
 
-// It gives a trigger pulse every 1000 pulses of 100000, and reports each of them and its own end.
+// A program that gives a trigger pulse every 1000 pulses of 100000, and reports each trigger pulse and its own end.
 const Lines kTellingProgram = {"P:R",         "P:P1",  "P:ON", "P:INIT", "P:SET,1,M,1,0,0,100000,0,0,0,1,0,0,1,1000",
                                "P:SET,2,END", "P:OFF", "P:C1", "P:T1",   "P:S",
                                "P:H"};
 
 struct Noticed {
-  std::vector<std::int64_t> triggers;  // the counts of each event
+  std::vector<std::int64_t> triggers;  // counts of the triggers in each event
   int ends = 0, barriers = 0;
 };
 
@@ -348,7 +348,7 @@ TEST(Hazard, H25_NoticesAreBounded) {
   EXPECT_LT(noticed.triggers.size(), 50U) << "100 pulses were told within 2 s\n" << world.replay();
 }
 
-// Where the program leads is not known, so somebody with a travel envelope cannot run it.
+// The target of a program is unknown, so a caller with a travel envelope cannot run it.
 TEST(Hazard, H25_AProgramLeavesNoEnvelope) {
   auto setup = quiet();
   setup.profile.axes[0].travel_maximum = pulses(1000);

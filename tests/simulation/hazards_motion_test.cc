@@ -1,5 +1,5 @@
-// Hazards of motions: lost answers and completions, stale setpoints, underruns. Numbers as in the table of what can go
-// wrong on a shared line.
+// Hazards of motions: lost answers and completions, stale setpoints, underruns. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,8 @@ TEST(Hazard, H03_OkOfHomeLostAndItIsSeenToRun) {
   EXPECT_TRUE(world.controller().state().axis(1).homed);
 }
 
-// It ends before the line is certain again: an axis at 0 may as well have lost its power, so nobody knows.
+// The homing ends before the line is certain again: an axis at 0 may also have lost its power, so the outcome is
+// unknown.
 TEST(Hazard, H03_OkOfHomeLostAndItIsOverUnseen) {
   World world(quiet());
   home_with_lost_ok(world, 4000);
@@ -160,7 +161,7 @@ TEST(Hazard, H12_StaleSetpointOfTheSameAxisIsReplaced) {
   EXPECT_EQ(world.device().starts(1), 1);
 }
 
-// What no command is documented to clear: nothing is started over it, on whatever axis it is.
+// Stale setpoints that no documented command clears: no motion is started over them, on any axis.
 class HazardH12 : public testing::TestWithParam<const char*> {};
 
 TEST_P(HazardH12, StaleSetpointThatCannotBeClearedRefusesMotion) {
@@ -207,7 +208,7 @@ TEST(Hazard, H13_OkWhereOkDWasDue) {
   EXPECT_EQ(world.device().position(2), 16000);
 }
 
-// A completion too many must not make the path refill early and overwrite the segment that waits.
+// An additional completion must not make the path refill early and overwrite the waiting segment.
 TEST(Hazard, H56_DoubledCompletionsOfAPath) {
   auto setup = quiet();
   setup.faults.double_notice = 1;
@@ -220,7 +221,7 @@ TEST(Hazard, H56_DoubledCompletionsOfAPath) {
   EXPECT_EQ(world.device().position(2), 24000);
 }
 
-// The limit may strike at any time, in the last pulses too: success is the target itself.
+// The limit may strike at any time, even in the last pulses: only the target itself is success.
 TEST(Hazard, H44_LimitNearTheTarget) {
   int succeeded = 0, failed = 0;
   for (int before_end = 0; before_end < 300 && !HasFailure(); before_end += 7) {
@@ -260,8 +261,8 @@ TEST(Hazard, H44_LimitStopIsNoSuccess) {
   EXPECT_EQ(reason_of(motion), Reason::limit_detected);
 }
 
-// A straight line that is set again for other axes replaces the whole one before (manual 2. 2), 24)). The axis that it
-// no longer names stays, and the next motion of that axis begins there.
+// A straight line that is set again for other axes replaces the whole earlier one (manual 2. 2), 24)). The axis that it
+// no longer names stays where it is, and the next motion of that axis begins there.
 TEST(Motions, ALineSetAnewForOtherAxes) {
   auto setup = quiet();
   setup.profile.axes[1].travel_minimum = pulses(-500'000);
@@ -283,7 +284,8 @@ TEST(Motions, ALineSetAnewForOtherAxes) {
   EXPECT_EQ(world.device().position(2), 0);
 }
 
-// The speed of a move stays in the controller when the line is lost under it: the next one runs at the old one.
+// The speed of a move stays in the controller when the line is lost during the move: the next move must run at the old
+// speed.
 TEST(Hazard, H28_SpeedsOfAMotionWhoseLineWasLost) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -299,7 +301,8 @@ TEST(Hazard, H28_SpeedsOfAMotionWhoseLineWasLost) {
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
 }
 
-// No number is documented for a motion out of the execution buffer (manual 67) M:), so nobody waits for one.
+// No completion is documented for a motion from the execution buffer (manual 67) M:), so the gateway does not wait for
+// one.
 TEST(Hazard, H01_ACallersOwnMoveLeavesNoNumberOutstanding) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

@@ -1,5 +1,5 @@
-// Hazard 43: counters that overflow, numbers of more than nine digits, units that pulses cannot express. Refused before
-// anything is written, and never taken for a position when the device reports them.
+// Hazard 43: counters that overflow, numbers of more than nine digits, units that pulses cannot express. Requests with
+// them are refused before anything is written; from the device, they are never taken for a position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class HazardH43 : public testing::Test {
  protected:
   HazardH43() : world(quiet()) { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
 
-  // What the request came to, at once, with nothing written.
+  // Returns the reason of the refusal, and expects it at once, with nothing written.
   template <class Ask>
   Reason refused(const Ask& ask) {
     const std::size_t lines = world.wire().commands().size();
@@ -52,7 +52,7 @@ TEST_F(HazardH43, TargetsBeyondNineDigits) {
   }
 }
 
-// The way has nine digits, its end has not.
+// The displacement has nine digits, its end has more.
 TEST_F(HazardH43, AWayThatWouldOverflowTheCounter) {
   moved(world, {{1, 1000}});
   EXPECT_EQ(refused_move(pulses(kMost), true), Reason::out_of_range);
@@ -68,7 +68,7 @@ TEST_F(HazardH43, APathWhoseSumWouldOverflow) {
       Reason::out_of_range);
 }
 
-// 10 nm a pulse: nothing between two pulses is rounded.
+// One pulse is 10 nm: a value between two pulses is not rounded.
 TEST_F(HazardH43, UnitsThatPulsesCannotSay) {
   EXPECT_EQ(refused_move({{15, 0}, Unit::nanometers}, true), Reason::not_representable);
   EXPECT_EQ(refused_move({{1, 6}, Unit::millimeters}, true), Reason::not_representable);
@@ -89,7 +89,7 @@ TEST_F(HazardH43, LinesOfMoreThanNineDigits) {
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
 }
 
-// The device's own numbers are believed as little: too long, or a jump that no stage makes.
+// Impossible numbers from the device are not believed either: too long, or a jump that no stage can make.
 TEST_F(HazardH43, PositionsThatCannotBe) {
   for (const std::string strange :
        {"P+9223372036854775808", "P-99999999999999999999", "P+9223372036854775807", "P+-1", "P+1000000000"}) {

@@ -1,5 +1,5 @@
-// Stops that stay open, one guard each, and the latch of an emergency stop. Numbers as in the table of what can go
-// wrong on a shared line.
+// Hazards of stops that stay open, one guard each, and of the latch of an emergency stop. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ class HazardOfOpenStops : public testing::Test {
     ASSERT_TRUE(world.device().busy(1)) << world.replay();
   }
 
-  // Nothing passes for so long, and the port stays open.
+  // Loses all lines for `time`, while the port stays open.
   void lose_all_for(Duration time) {
     const TimePoint until = world.now() + time;
     world.wire().set_script([this, until](LineKind, const std::string&) {
@@ -101,8 +101,8 @@ TEST_F(HazardOfOpenStops, H54_ItFollowsTheFirstLineThatIsHeard) {
   EXPECT_LT(world.now() - heard_at, milliseconds(10)) << "it waits for no barrier\n" << world.replay();
 }
 
-// The unit of before may have received nothing; the other one has received at most what was written before it said who
-// it is.
+// The first unit may have received nothing. The other unit has received only lines that were written before it
+// identified itself.
 TEST_F(HazardOfOpenStops, H32_AnotherUnitReceivesNoStop) {
   world.visit_of_another_unit("9999999999", milliseconds(100));
   (void)stop();
@@ -119,8 +119,8 @@ TEST_F(HazardOfOpenStops, H32_AnotherUnitReceivesNoStop) {
   EXPECT_TRUE(world.violations().empty()) << world.violations().front();
 }
 
-// Every L: is lost until one reading, the `which`-th behind the first L:, shows a B as an R. Whether the axis moves as
-// the stop is confirmed.
+// Loses every L: until one reading, number `which` after the first L:, shows a B as an R. Reports whether the axis
+// moves when the stop is confirmed.
 bool moves_when_confirmed(int which) {
   World world(quiet());
   EXPECT_TRUE(world.run_until_up()) << world.replay();
@@ -152,7 +152,7 @@ TEST(HazardOfStopsInDoubt, H54_OneReadyIsNotEnough) {
   for (int which = 1; which <= 6; ++which) EXPECT_FALSE(moves_when_confirmed(which)) << which;
 }
 
-// Positions prove nothing while all axes are at 0: only the answer to a ?:CMD of before the stop does.
+// Positions are no evidence while all axes are at 0; only the answer to a ?:CMD sent before the stop is.
 TEST(HazardOfStopsInDoubt, H21_AControllerThatWasFrozenHasNotRestarted) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -186,7 +186,7 @@ TEST_F(HazardOfOpenStops, H54_AWiderStopAnswersTheCallersOfANarrowerOne) {
   EXPECT_TRUE(world.run_until([this] { return open() == 0; }, seconds(20))) << world.replay();
 }
 
-// The controller takes no stop at all: the stop stays open on a link that is up.
+// The controller accepts no stop at all: the stop stays open on a link that is up.
 TEST_F(HazardOfOpenStops, H54_MotionIsRefusedWhileAStopIsLate) {
   world.wire().set_script([](LineKind kind, const std::string& line) -> Scripted {
     if (kind != LineKind::command || !line.starts_with("L:")) return {};
@@ -207,7 +207,7 @@ TEST_F(HazardOfOpenStops, H54_MotionIsRefusedWhileAStopIsLate) {
   moved(world, {{1, 100}});
 }
 
-// The motion has ended UNKNOWN, and its axis runs on.
+// The motion has ended UNKNOWN, and its axis still runs.
 TEST_F(HazardOfOpenStops, H31_AMotionThatEndedUnknownIsStillCancelled) {
   lose_all_for(seconds(4));
   ASSERT_EQ(outcome_of(world, 1).state, MotionState::unknown) << world.replay();
@@ -236,7 +236,7 @@ TEST_F(HazardOfOpenStops, H18_InAModeThatTakesNoStopItWaitsForHost) {
   EXPECT_TRUE(world.run_until([this] { return open() == 0; }, seconds(20))) << world.replay();
 }
 
-// When the answer says that the axis is stationary, the motion has its outcome and its axes are free.
+// When the answer says that the axis is stationary, the motion must have its outcome and its axes must be free.
 TEST(StopAndMotion, AgreeAThousandTimes) {
   server::LeaseTokens tokens(1);
   server::Leases leases(tokens);

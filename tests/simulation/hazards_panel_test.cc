@@ -1,5 +1,5 @@
-// Hazards of what a person does at the device: the front panel, motors switched off. Numbers as in the table of what
-// can go wrong on a shared line.
+// Hazards of a person's acts at the device: the front panel, motors switched off. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
-// An axis known to be off is not named, so that the others are stopped by the first line.
+// An axis known to be off is not named, so that the first line stops the other axes.
 TEST(Hazard, H17_AnAxisWithoutExcitationIsNotNamed) {
   World world(quiet());
   world.device().set_excitation(3, false, world.now());
@@ -32,7 +32,8 @@ TEST(Hazard, H17_AnAxisWithoutExcitationIsNotNamed) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// Switched off at the front panel, unknown to the gateway: L: of all is NG, and each axis is stopped for itself.
+// The motor is switched off at the front panel without the gateway's knowledge: L: of all axes is NG, and each axis is
+// stopped separately.
 TEST(Hazard, H17_AnAxisSwitchedOffAtThePanel) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -51,7 +52,7 @@ TEST(Hazard, H17_AnAxisSwitchedOffAtThePanel) {
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
 }
 
-// The same under the other reading of the manual: L: of all stops those that it can.
+// The same under the other interpretation of the manual: L: of all axes stops those that it can.
 TEST(Hazard, H17_AnAxisSwitchedOffWhereTheOthersStop) {
   auto setup = quiet();
   ASSERT_TRUE(setup.options.set("stop_with_unexcited_axis", "stops_excited"));
@@ -71,7 +72,7 @@ TEST(Hazard, H17_AnAxisSwitchedOffWhereTheOthersStop) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// NG from every axis while one moves is reported as it is, and not as a stop.
+// NG from every axis while one moves is reported as such, not as a stop.
 TEST(Hazard, H17_AStopThatIsRefusedThroughout) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -89,7 +90,7 @@ TEST(Hazard, H17_AStopThatIsRefusedThroughout) {
   EXPECT_EQ(report.axes[0].ready, false);
 }
 
-// The very axis that moves loses its motor: that is no success.
+// The moving axis itself loses its motor, which is a failure.
 TEST(Hazard, H17_TheMovingAxisIsSwitchedOff) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -101,7 +102,7 @@ TEST(Hazard, H17_TheMovingAxisIsSwitchedOff) {
   EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::not_excited) << world.replay();
 }
 
-// Why the axis has stopped is asked after a reading that made sense, and after no other.
+// The gateway asks why the axis has stopped only after a reading that made sense.
 TEST(Hazard, H17_AnUnreadablePositionAsksForNoReason) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -110,7 +111,7 @@ TEST(Hazard, H17_AnUnreadablePositionAsksForNoReason) {
   int asked = 0, stationary = 0;
   world.on_news = [&asked](const Event& event) {
     const auto* ended = std::get_if<ExchangeEnded>(&event);
-    if (ended != nullptr && ended->line == "?:C" && ended->who == "tester") ++asked;  // the gateway polls it, too
+    if (ended != nullptr && ended->line == "?:C" && ended->who == "tester") ++asked;  // the gateway also polls it
   };
   world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
     if (kind != LineKind::reply || line.find(",R,R,R") == line.npos) return {};
@@ -135,7 +136,7 @@ class HazardH19 : public testing::TestWithParam<Panel> {
     world.device().set_format(GetParam().format, world.now());
   }
 
-  // Nothing that was read before may be shown as the state of now.
+  // Reports whether no earlier reading is shown as the present state.
   static bool telemetry_is_void(World& world) {
     const State& state = world.controller().state();
     for (const AxisState& axis : state.axes) {
@@ -205,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(FrontPanel, HazardH19,
                          testing::Values(Panel{"MANUAL", "SHOT_FC"}, Panel{"REMOTE", "SHOT_FC"}, Panel{"HOST", "HIT"},
                                          Panel{"EDIT", "HIT"}));
 
-// The foreign motions that a test receives.
+// Foreign motions that a test receives.
 struct ForeignMotions : EventSink {
   void on_event(const Event& event, TimePoint) override {
     if (const auto* motion = std::get_if<ForeignMotion>(&event)) told.push_back(motion->axes);
@@ -213,7 +214,7 @@ struct ForeignMotions : EventSink {
   std::vector<AxisSet> told;
 };
 
-// The gateway before has set it going, and was killed: said, not stopped, and never gone on with.
+// The previous gateway started the motion, and was killed: the motion is reported, not stopped and not continued.
 TEST(Hazard, H30_AGatewayThatStartsUnderAMotion) {
   auto setup = quiet();
   ForeignMotions foreign;
@@ -232,7 +233,7 @@ TEST(Hazard, H30_AGatewayThatStartsUnderAMotion) {
   EXPECT_EQ(motion_lines(world, 0), 0);
 }
 
-// Ours is not foreign, however it ends.
+// The gateway's own motion is not foreign, however it ends.
 TEST(Hazard, H30_OnesOwnMotionIsNone) {
   auto setup = quiet();
   ForeignMotions foreign;

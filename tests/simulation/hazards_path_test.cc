@@ -1,5 +1,5 @@
-// Hazard 56 and what else a path can take for the end of a segment. Each of these fails without the guard that it is
-// about (tests/guards/table.cc).
+// Hazard 56, and other events that a path can take for the end of a segment. Each test fails without the guard that it
+// tests (tests/guards/table.cc).
 #include <gtest/gtest.h>
 
 #include "tests/simulation/scenario.h"
@@ -14,21 +14,22 @@ using std::chrono::seconds;
 
 constexpr int kSegments = 6;
 
-// Fast enough for a segment that is sent a few milliseconds too soon to overwrite the one that waits.
+// Returns a line so fast that a segment sent a few milliseconds too soon overwrites the waiting one.
 Setup fast() {
   auto setup = quiet();
   setup.baud = setup.profile.baud = 115200;
   return setup;
 }
 
-// Every segment has run once, and nothing was lost on the way.
+// Expects that every segment has run once.
 void expect_whole(World& world, Duration what) {
   const Motion path = outcome_of(world, 1, seconds(120));
   EXPECT_EQ(path.state, MotionState::succeeded) << what.count() << " ns\n" << world.replay();
   EXPECT_EQ(world.device().starts(2), kSegments) << what.count() << " ns\n" << world.replay();
 }
 
-// A bit makes a segment of axes 1 and 3 of one of axes 1 and 2. A doubled number has the gateway look before it runs.
+// A flipped bit turns a segment of axes 1 and 2 into one of axes 1 and 3. A doubled axis number makes the gateway check
+// before the segment runs.
 TEST(Hazard, H07_ASegmentForOtherAxes) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -51,7 +52,7 @@ TEST(Hazard, H07_ASegmentForOtherAxes) {
   EXPECT_FALSE(world.device().busy(1) || world.device().busy(2) || world.device().busy(3));
 }
 
-// The other axis' number of each segment comes nearly a segment late, at the time of the next one's end.
+// The other axis' number of each segment is late by nearly a segment, and comes at the end of the next segment.
 TEST(Hazard, H56_OneAxisIsTheClock) {
   for (Duration late = milliseconds(60); late < milliseconds(260) && !testing::Test::HasFailure();
        late += microseconds(500)) {
@@ -65,7 +66,7 @@ TEST(Hazard, H56_OneAxisIsTheClock) {
   }
 }
 
-// The gateway has misread the speed: it believes that each segment takes a third of its time.
+// Runs a path whose speed the gateway has misread: it believes that each segment takes a third of its time.
 void run_misread_path(World& world) {
   const std::string misread = "S3000F50000R100";
   world.wire().set_script([&world, misread](LineKind kind, const std::string&) -> Scripted {
@@ -78,7 +79,7 @@ void run_misread_path(World& world) {
   world.controller().run_path(path, world.now(), [](Result<Motion>) {});
 }
 
-// A number that had been requested comes late, in the middle of the next segment.
+// A number already confirmed by a question is late, in the middle of the next segment.
 TEST(Hazard, H56_ALateNumberIsNotTheNextSegmentsEnd) {
   World world(quiet());
   run_misread_path(world);
@@ -89,7 +90,7 @@ TEST(Hazard, H56_ALateNumberIsNotTheNextSegmentsEnd) {
   expect_whole(world, milliseconds(1500));
 }
 
-// Once it has come, the numbers behind it are believed again: each that is not costs a question.
+// After the late number, the numbers of later segments are believed again. Each that is not believed costs a question.
 TEST(Hazard, H56_BehindALateNumberTheNextOnesCount) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -113,7 +114,7 @@ TEST(Hazard, H56_ANumberInABarrierIsChecked) {
     run_misread_path(world);
     const int segment = 2 + i % 4;
     ASSERT_TRUE(world.run_until([&] { return world.device().starts(2) == segment; }, seconds(30))) << world.replay();
-    world.run_for(milliseconds(200));  // what follows the segment's start has been answered
+    world.run_for(milliseconds(200));  // all lines after the segment's start have been answered
     bool deaf = true;
     world.wire().set_script([&](LineKind kind, const std::string&) {
       return Scripted{.drop = deaf && kind == LineKind::reply, .delay = {}, .instead = {}};
@@ -127,7 +128,7 @@ TEST(Hazard, H56_ANumberInABarrierIsChecked) {
   }
 }
 
-// A path that comes through the same places again: where it rests does not tell how far it came.
+// The path passes the same places again, so its final place does not show how far it got.
 TEST(Hazard, H56_APlaceThatTwoSegmentsShare) {
   for (int lost = 1; lost <= kSegments && !HasFailure(); ++lost) {
     for (const std::string prefix : {"MP:", "G:"}) {

@@ -1,5 +1,5 @@
-// Hazards of a controller that restarts: what was known of it is void, whether or not the restart was seen. Numbers as
-// in the table of what can go wrong on a shared line.
+// Hazards of a controller that restarts: earlier knowledge of it is void, even if the restart was not seen. The numbers
+// are those of device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ using simulator::Boot;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// From a restart too short to lose a poll to one that loses three probes.
+// Silences from a restart too short to lose a poll up to a restart that loses three probes.
 constexpr Duration kSilences[] = {milliseconds(200), milliseconds(350),  milliseconds(600),
                                   milliseconds(900), milliseconds(1400), seconds(3)};
-// By then even an idle line has been polled twice, a barrier has passed and the handshake too.
+// Within this time even an idle line has been polled twice, a barrier has ended and the handshake too.
 constexpr Duration kNoticed = seconds(12);
 
 void restart(World& world, const Boot& boot) {
@@ -46,7 +46,8 @@ void expect_new_epoch(World& world, std::uint64_t epoch) {
 
 class HazardH21 : public testing::TestWithParam<Duration> {};
 
-// Axis 1 stands at `place` in the frame of its origin; the restart comes at any time between two polls.
+// Restarts the controller at any time between two polls, while axis 1 is stationary at `place` in the frame of its
+// origin.
 void restart_at_rest(Duration silence, std::int64_t place, bool stop_follows) {
   for (int phase = 0; phase < 1200 && !testing::Test::HasFailure(); phase += 110) {
     World world(quiet());
@@ -69,10 +70,10 @@ void restart_at_rest(Duration silence, std::int64_t place, bool stop_follows) {
 
 TEST_P(HazardH21, AtRestAwayFromTheOrigin) { restart_at_rest(GetParam(), 4000, false); }
 TEST_P(HazardH21, AtRestAtTheOrigin) { restart_at_rest(GetParam(), 0, false); }
-// What the stop leaves behind in ?:CMD must not hide the restart before it.
+// The stop becomes the answer to ?:CMD, which must not hide the restart before it.
 TEST_P(HazardH21, AtRestAndAStopIsTheFirstLineAfterIt) { restart_at_rest(GetParam(), 0, true); }
 
-// An origin return ends at 0, and so does a restart.
+// An origin return ends at 0, like a restart.
 TEST_P(HazardH21, InTheMiddleOfAnOriginReturn) {
   for (int after = 20; after < 900 && !HasFailure(); after += 70) {
     World world(quiet());
@@ -81,7 +82,7 @@ TEST_P(HazardH21, InTheMiddleOfAnOriginReturn) {
     const std::uint64_t epoch = world.controller().state().device_epoch;
     home(world, AxisSet::of(1));
     world.run_for(milliseconds(after));
-    if (world.outcomes().size() > 1) break;  // over before the restart
+    if (world.outcomes().size() > 1) break;  // ended before the restart
     restart(world, GetParam());
     EXPECT_NE(outcome_of(world, 2).state, MotionState::succeeded) << after << "\n" << world.replay();
     expect_new_epoch(world, epoch);
@@ -89,7 +90,7 @@ TEST_P(HazardH21, InTheMiddleOfAnOriginReturn) {
   }
 }
 
-// So does a move back to 0, and a path whose sum is 0.
+// A move back to 0 also ends at 0, and so does a path whose sum is 0.
 TEST_P(HazardH21, InTheMiddleOfAMoveToZero) {
   for (int after = 20; after < 900 && !HasFailure(); after += 70) {
     World world(quiet());
@@ -121,7 +122,7 @@ TEST_P(HazardH21, InTheMiddleOfAPathThatEndsWhereItBegan) {
   }
 }
 
-// A target is a place in the frame of the time when it was requested.
+// A target is a place in the frame at the time of the request.
 TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
   for (int phase = 0; phase < 1000 && !HasFailure(); phase += 90) {
     World world(quiet());
@@ -131,7 +132,7 @@ TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
     const std::uint64_t epoch = world.controller().state().device_epoch;
     restart(world, GetParam());
     world.run_for(GetParam() + milliseconds(1));
-    if (world.controller().state().device_epoch > epoch) continue;  // noticed already
+    if (world.controller().state().device_epoch > epoch) continue;  // already noticed
     world.controller().move(move_of(world, {{1, 5000}}, false), world.now(), [](Result<Motion>) {});
     EXPECT_EQ(outcome_of(world, 2).state, MotionState::failed) << phase << "\n" << world.replay();
     EXPECT_EQ(world.device().starts(1), 1) << "moved in another frame\n" << world.replay();
@@ -141,8 +142,8 @@ TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
 
 INSTANTIATE_TEST_SUITE_P(Silences, HazardH21, testing::ValuesIn(kSilences));
 
-// Seeds 903823 and 1201942: it restarts after an answer that comes late. What is asked then is answered in time, after
-// that answer. The answer to one ?:CMD comes when another has been sent.
+// Seeds 903823 and 1201942: the controller restarts after an answer that is late. Questions asked then are answered in
+// time, after that answer. The answer to one ?:CMD is received when another has been sent.
 TEST(Hazard, H21_BehindALateAnswer) {
   for (const auto& [question, delay] : {std::pair{"?:V", milliseconds(450)}, {"?:CMD", milliseconds(800)}}) {
     World world(quiet());
@@ -165,8 +166,8 @@ TEST(Hazard, H21_BehindALateAnswer) {
   }
 }
 
-// Seed 20000561: after the restart one flipped bit shows axis 1 at 1 instead of 0. That was taken for the controller of
-// before, and a motion that it had forgotten SUCCEEDED.
+// Seed 20000561: after the restart one flipped bit shows axis 1 at 1 instead of 0. The gateway took it for the
+// controller without a restart, and a motion that the controller had forgotten SUCCEEDED.
 TEST(Hazard, H21_OneDamagedReadingProvesNothing) {
   for (int phase = 0; phase < 1200 && !HasFailure(); phase += 110) {
     World world(quiet());
@@ -189,7 +190,7 @@ TEST(Hazard, H21_OneDamagedReadingProvesNothing) {
   }
 }
 
-// Without a restart a quiet line stays what it is, whatever is asked on it and whenever.
+// Without a restart no question on a quiet line, at any time, may report one.
 TEST(Hazard, H21_NoFalseAlarm) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -208,7 +209,7 @@ TEST(Hazard, H21_NoFalseAlarm) {
   EXPECT_TRUE(any_homed(world));
 }
 
-// A question lost on its way says nothing against the controller while a counter other than 0 speaks for it.
+// A lost question is no evidence of a restart while a counter other than 0 is evidence against it.
 TEST(Hazard, H21_NoFalseAlarmWhenTheAnswerIsLost) {
   for (const LineKind lost : {LineKind::command, LineKind::reply}) {
     World world(quiet());
@@ -225,7 +226,7 @@ TEST(Hazard, H21_NoFalseAlarmWhenTheAnswerIsLost) {
   }
 }
 
-// Hazard 22: it comes back elsewhere than in HOST and SHOT_FC.
+// Hazard 22: the controller comes back in another mode than HOST, or another format than SHOT_FC.
 class HazardH22 : public testing::TestWithParam<Boot> {};
 
 TEST_P(HazardH22, NoMotionBeforeTheHandshakeHasPassed) {
@@ -257,7 +258,7 @@ TEST_P(HazardH22, NoMotionBeforeTheHandshakeHasPassed) {
   world.device().set_format("SHOT_FC", world.now());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   EXPECT_FALSE(any_homed(world));
-  world.run_for(seconds(6));  // all who still waited have been answered
+  world.run_for(seconds(6));  // all waiting callers have been answered
   moved(world, {{1, 100}});
 }
 

@@ -1,5 +1,5 @@
-// Hazards of requests that come again, also to a daemon that was killed in between. Numbers as in the table of what can
-// go wrong on a shared line.
+// Hazards of repeated requests, also to a daemon that was killed in between. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -28,7 +28,7 @@ struct Answer {
   bool is_repeated = false;
 };
 
-// A daemon with a stage on a good line, and what anna is answered.
+// A daemon with a stage on a good line, and the answers to anna.
 struct Bed {
   Bed() {
     daemon->prepare(world.controller(), world.now());
@@ -60,7 +60,7 @@ struct Bed {
                            .written_is_lost = written_is_lost});
   }
 
-  // Moves axis 1 by `way`. As api::Pipeline::act().
+  // Requests a move of axis 1 by `way`, like api::Pipeline::act().
   void request(const std::string& id, std::uint64_t device_epoch = 0) {
     const auto begun = daemon->requests().begin(
         {.identity = kAnna, .id = id, .digest = "by the way", .device = kDevice, .moves = true}, "", world.now(),
@@ -95,7 +95,7 @@ struct Bed {
   World world{setup()};
   std::vector<Answer> answers;
   std::int64_t way = kWay;
-  int lines_to_kill = 0;  // 0: none
+  int lines_to_kill = 0;  // 0: no kill
   bool written_is_lost = false;
 };
 
@@ -103,7 +103,7 @@ void alter(const Bed& bed, const char* sql) {
   ASSERT_TRUE(Database::open(bed.folder.journal(), Database::Access::write)->run(sql)) << sql;
 }
 
-// What of a killed daemon's is lost: the line that it was writing, and the rows that waited for the disk.
+// Data that a killed daemon loses: the line that it was writing, and the rows that waited for the disk.
 struct Loss {
   bool line = false, rows = false;
 };
@@ -144,7 +144,8 @@ TEST_P(HazardH34, ARelativeMoveIsRepeatedOverAKillAtAnyLine) {
 
 INSTANTIATE_TEST_SUITE_P(Lost, HazardH34, testing::Values(Loss{}, Loss{.line = true}, Loss{.rows = true}));
 
-// By the record the motion is ours, so it is stopped. A repeat of its request is answered with what became of it.
+// By the record, the motion belongs to the gateway, so it is stopped. A repeat of its request is answered with its
+// outcome.
 TEST(Hazard, H30_AMotionOfAKilledDaemonIsStoppedAndNotResumed) {
   Bed bed;
   ASSERT_TRUE(bed.world.run_until_up());
@@ -171,7 +172,7 @@ TEST(Hazard, H30_AMotionOfAKilledDaemonIsStoppedAndNotResumed) {
   EXPECT_EQ(ends->size(), 1u);
 }
 
-// What was done before the restart is answered; what is new and was meant for then is refused.
+// A request executed before the restart is answered with its result. A new request that names the old epoch is refused.
 TEST(Hazard, H21_ARequestOfTheEpochBeforeDoesNotAct) {
   Bed bed;
   ASSERT_TRUE(bed.world.run_until_up());
@@ -190,7 +191,7 @@ TEST(Hazard, H21_ARequestOfTheEpochBeforeDoesNotAct) {
   EXPECT_EQ(motion_lines(bed.world, first), 0) << bed.world.replay();
 }
 
-// The disk refuses the row of the request, so nothing is sent; a stop waits for no row. The id stays free.
+// The disk refuses the row of the request, so nothing is sent. A stop waits for no row. The id stays free.
 TEST(Hazard, H45_AFullDiskRefusesMotionsAndNoStop) {
   Bed bed;
   ASSERT_TRUE(bed.world.run_until_up());
@@ -213,7 +214,7 @@ TEST(Hazard, H45_AFullDiskRefusesMotionsAndNoStop) {
   EXPECT_EQ(bed.world.device().position(1), kWay) << bed.world.replay();
 }
 
-// The record of motions keeps the newest that have ended, and up to which number others were started.
+// The record of motions keeps the newest that have ended, and the number up to which others were started.
 TEST(Hazard, H34_MoreMotionsThanTheRecordKeepsEndBehindAHangingDisk) {
   constexpr int kMotions = 24;
   Bed bed;

@@ -1,4 +1,4 @@
-// Hazards of settings that outlive their user. Numbers as in the table of what can go wrong on a shared line.
+// Hazards of settings that outlive their user. The numbers are those of device/shrc203/HAZARDS.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class HazardOfSettings : public testing::Test {
     world.controller().execute({{line}, context(who, token)}, world.now(), [](const ExecuteEvent&) {});
     world.run_for(seconds(2));
   }
-  // By a caller who holds the whole controller; the answer reports what became of it.
+  // Executes lines that set the whole controller. Returns the problem; nullopt if there is none.
   std::optional<Problem> set(const std::vector<std::string>& lines, const std::string& who, LeaseToken token) {
     std::optional<Problem> problem;
     world.controller().execute({lines, context(who, token)}, world.now(), [&](const ExecuteEvent& event) {
@@ -44,7 +44,7 @@ class HazardOfSettings : public testing::Test {
     world.run_for(seconds(2));
     return problem;
   }
-  // At a speed of its own, for some seconds.
+  // Moves for a few seconds at a speed given in the request.
   void move_slowly(int axis, const std::string& who, LeaseToken token) {
     MoveRequest request = move_of(world, {{axis, 5000}}, true);
     request.moves[0].profile = SpeedProfile{pulses(200), pulses(2000), 30};
@@ -57,7 +57,7 @@ class HazardOfSettings : public testing::Test {
   World world{shared_by(leases)};
 };
 
-// D: of a lease's holder, and what the next one finds.
+// A lease's holder changes speeds with D:, and the next holder finds the old ones.
 TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLease) {
   const LeaseToken anna = lease("anna", kOne);
   world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
@@ -78,7 +78,7 @@ TEST_F(HazardOfSettings, H28_SpeedsSetWithoutALeaseStay) {
   EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
 }
 
-// The line is pulled while the lease expires: the axis is nobody's until its speeds could be put back.
+// The line is lost while the lease expires: the axis stays held until its speeds have been restored.
 TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLeaseWhenTheLineComesBack) {
   const LeaseToken anna = lease("anna", kOne);
   world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
@@ -91,7 +91,7 @@ TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLeaseWhenTheLineComesBack) {
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
 }
 
-// Whatever the lease ends by, and the daemon's end is one of them.
+// The speeds end with the lease however it ends, even with the end of the daemon.
 TEST_F(HazardOfSettings, H52_SpeedsEndWithTheDaemon) {
   const LeaseToken anna = lease("anna", kOne);
   world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
@@ -102,7 +102,8 @@ TEST_F(HazardOfSettings, H52_SpeedsEndWithTheDaemon) {
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
 }
 
-// Users' seed 29876: a D: alone went out while a path moved its axis, and took the path's speed for what was before.
+// Users' seed 29876: a D: was sent alone while a path moved its axis, and took the path's speed for the earlier
+// setting.
 TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
@@ -158,7 +159,7 @@ TEST_F(HazardOfSettings, H28_SpeedsBeforeTheLeaseAreOlderThanThoseOwed) {
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
 }
 
-// The lease ends while another's motion keeps its restoring waiting, and the line is lost meanwhile.
+// The lease ends while another caller's motion delays the restore, and the line is lost meanwhile.
 TEST_F(HazardOfSettings, H28_ALossOfTheLineWhileItWaitsItsTurn) {
   const LeaseToken anna = lease("anna", kOne);
   set_speeds("D:1S500F7000R300", "anna", anna);
@@ -171,7 +172,8 @@ TEST_F(HazardOfSettings, H28_ALossOfTheLineWhileItWaitsItsTurn) {
   EXPECT_TRUE(leases.held().empty());
 }
 
-// Outputs and the trigger are the controller's, so they need the right to all of it; the next one finds the old ones.
+// Outputs and the trigger belong to the controller, so they need a lease of all axes; the next holder finds the old
+// ones.
 TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
   EXPECT_EQ(set({"O:9", "T:P2P500"}, "boss", 0), std::nullopt) << world.replay();
   const LeaseToken anna = lease("anna", AxisSet::all());
@@ -189,7 +191,7 @@ TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
   EXPECT_EQ(world.controller().state().trigger, (Trigger{Trigger::Target::drive_pulses, 2, 500}));
 }
 
-// What is armed by nobody's lease is nobody's to put back; and what was none is none again.
+// At the end of the daemon, outputs are off and the trigger is disarmed again, as before the lease.
 TEST_F(HazardOfSettings, H52_ATriggerEndsWithTheDaemon) {
   const LeaseToken anna = lease("anna", AxisSet::all());
   EXPECT_EQ(set({"O:5", "T:P1P100"}, "anna", anna), std::nullopt) << world.replay();
@@ -217,7 +219,7 @@ TEST_F(HazardOfSettings, H52_OutputsWhoseAnswerWasLost) {
   EXPECT_EQ(world.device().outputs(), 0) << world.replay();
 }
 
-// Outputs are nothing to motion, so that a shutter opens while the stage moves (manual 96) names no condition).
+// Outputs do not depend on motion, so a shutter can open while the stage moves (manual 96) names no condition).
 TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
   const LeaseToken anna = lease("anna", AxisSet::all());
   MoveRequest request = move_of(world, {{1, 500'000}}, true);
@@ -230,7 +232,7 @@ TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
   EXPECT_TRUE(world.device().busy(1)) << world.replay();
 }
 
-// One byte too many in the answer to ?:B makes speeds that no B: can set; they are read again.
+// One additional byte in the answer to ?:B gives speeds that no B: can set; they are read again.
 TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
@@ -269,7 +271,7 @@ TEST_F(HazardOfSettings, H35_OutputsOfALeaseThatEndedAreNotSent) {
   EXPECT_EQ(world.device().outputs(), 0) << world.replay();
 }
 
-// A controller that has just started switches nothing on by itself.
+// After a restart of the controller the gateway switches nothing on.
 TEST_F(HazardOfSettings, H52_NothingIsSwitchedOnAfterARestart) {
   EXPECT_EQ(set({"O:32", "T:T100"}, "boss", 0), std::nullopt) << world.replay();
   const LeaseToken anna = lease("anna", AxisSet::all());
@@ -281,7 +283,7 @@ TEST_F(HazardOfSettings, H52_NothingIsSwitchedOnAfterARestart) {
   EXPECT_TRUE(leases.held().empty());
 }
 
-// A setting that a caller makes replaces one that is pending restore.
+// A caller's own setting replaces one that is pending restore.
 TEST_F(HazardOfSettings, H28_ASettingOfOnesOwnIsNotOverwritten) {
   move_slowly(2, "anna", 0);
   world.run_for(seconds(1));

@@ -1,5 +1,5 @@
-// Hazards of what a stop, a path or a late completion leaves behind. Numbers as in the table of what can go wrong on a
-// shared line.
+// Hazards of setpoints and completions that a stop, a path or a delay leaves behind. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,12 +23,13 @@ Setup reading(std::string_view option, std::string_view value) {
 
 int starts(World& world) { return world.device().starts(1) + world.device().starts(2) + world.device().starts(3); }
 
-// Whether L: clears the prebuffer, keeps it, or lets it start: the stop is over only when nothing waits any more.
+// Interpretations of L:, which clears the prebuffer, keeps it, or lets it start. The stop ends only when no setpoint
+// waits.
 class HazardH14 : public testing::TestWithParam<const char*> {
  protected:
   bool kept() const { return std::string_view(GetParam()) == "kept"; }
 
-  // READY has been seen and every prebuffer read after the last L:, and before the caller receives the outcome.
+  // Expects READY and a reading of every prebuffer after the last L: and before the caller receives the outcome.
   static void expect_every_prebuffer_was_asked_for(World& world) {
     const auto& lines = world.wire().commands();
     const auto last_stop =
@@ -76,10 +77,10 @@ TEST_P(HazardH14, StoppedWithASegmentInThePrebuffer) {
 
 INSTANTIATE_TEST_SUITE_P(Readings, HazardH14, testing::Values("cleared", "kept", "starts_next"));
 
-// The kept segment starts by itself, and would run for three seconds: L: once more, and it stands.
+// The kept segment starts without a command, and would run for three seconds: a second L: stops it.
 TEST(Hazard, H14_TheKeptSegmentStarts) {
   World world(reading("stop_keeps_prebuffer", "starts_next"));
-  world.device().set_excitation(3, false, world.now());  // L: must not name it the second time either
+  world.device().set_excitation(3, false, world.now());  // the second L: must not name it either
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   PathRequest path = line_of(world, 12);
   for (Segment& segment : path.segments) segment.moves[1].distance = pulses(60'000);
@@ -96,7 +97,8 @@ TEST(Hazard, H14_TheKeptSegmentStarts) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// What is set for the next motion is not what the stop left behind, nor what a motion of other axes has set.
+// A setpoint for the next motion differs from a stale setpoint of the stop, and from a setpoint of a motion of other
+// axes.
 TEST(Hazard, H14_AMoveAskedForRightAfterAStopIsNotHit) {
   for (int apart = 0; apart < 120 && !HasFailure(); apart += 3) {
     World world(quiet());
@@ -133,7 +135,7 @@ TEST(Hazard, H14_AStopOfOneAxisLeavesThePathOfOthers) {
   }
 }
 
-// The number that a stopped axis sends comes up to 190 ms late: the next move neither begins before nor ends by it.
+// The completion of a stopped axis is up to 190 ms late: the next move neither begins before it nor ends by it.
 class HazardH57 : public testing::TestWithParam<const char*> {};
 
 TEST_P(HazardH57, AMoveAskedForRightAfterAStop) {
@@ -176,7 +178,7 @@ TEST_P(HazardH57, AMoveAskedForRightAfterAStop) {
 
 INSTANTIATE_TEST_SUITE_P(Readings, HazardH57, testing::Values("sent", "none"));
 
-// Hazard 4, the other half: no number comes after L:, and nothing waits for it for ever.
+// Hazard 4, the opposite case: no completion follows L:, and nothing waits for it for ever.
 TEST(Hazard, H04_NoCompletionAfterAStop) {
   World world(reading("completion_after_stop", "none"));
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -189,7 +191,7 @@ TEST(Hazard, H04_NoCompletionAfterAStop) {
   EXPECT_THAT(execute(world, {"?:BEEP"}), testing::ElementsAre("1")) << "asked in vain";
 }
 
-// A number right behind the answer that put the next segment into the prebuffer: none has ended yet.
+// A completion directly after the answer that put the next segment into the prebuffer: no segment has ended yet.
 TEST(Hazard, H56_EarlyCompletionsOfAPath) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -206,7 +208,7 @@ TEST(Hazard, H56_EarlyCompletionsOfAPath) {
   EXPECT_EQ(world.device().position(2), 24000);
 }
 
-// Each number of axis 2 is read as one of axis 1.
+// Each completion of axis 2 is read as one of axis 1.
 TEST(Hazard, H56_MisreadCompletionsOfAPath) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -220,7 +222,7 @@ TEST(Hazard, H56_MisreadCompletionsOfAPath) {
   EXPECT_EQ(world.device().position(2), 24000);
 }
 
-// A segment was received with one digit wrong and taken: the sum is not exact, and that is no success.
+// A segment was received and accepted with one digit wrong: the sum is not exact, which is not a success.
 TEST(Hazard, H56_TheSumMustBeExact) {
   for (const int wrong : {1, 5, 12}) {
     World world(quiet());

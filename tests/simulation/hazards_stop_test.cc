@@ -1,5 +1,5 @@
-// Hazards of stopping, and what is refused before anything is written. Numbers as in the table of what can go wrong on
-// a shared line.
+// Hazards of stopping, and requests that are refused before anything is written. The numbers are those of
+// device/shrc203/HAZARDS.md.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Hazard, H37_TheQueueIsBounded) {
   EXPECT_EQ(full, 1100 - 1 - 1024);
 }
 
-// The questions of many callers, of which no two share an exchange.
+// Asks the questions of many callers, no two of which share an exchange.
 void ask_for_everything(World& world) {
   const std::vector<std::string> units = {"P", "N", "U", "M", "D"};
   for (int round = 0; round < 40; ++round) {
@@ -93,8 +93,8 @@ TEST(Hazard, H38_StopBehindAThousandQuestions) {
   }
 }
 
-// The receive line dies while the axis moves; however long ago that was, a stop is written within the time limit of
-// the one exchange that may be ahead of it.
+// The receive line fails while the axis moves. At any time after that, a stop is written within the time limit of the
+// one exchange that may be ahead of it.
 TEST(Hazard, H54_ReceiveLineDead) {
   for (int silent = 0; silent < 12000 && !HasFailure(); silent += 170) {
     World world(quiet());
@@ -122,7 +122,7 @@ TEST(Hazard, H54_ReceiveLineDead) {
   }
 }
 
-// The same of an origin return, which is one line: a stop before it is the end of it.
+// The same for an origin return, which is one line: a stop before this line ends the motion.
 TEST(Hazard, H35_StopBeforeAnOriginReturn) {
   int kept_back = 0;
   for (Duration offset{}; offset < milliseconds(80) && !HasFailure(); offset += microseconds(410)) {
@@ -141,7 +141,7 @@ TEST(Hazard, H35_StopBeforeAnOriginReturn) {
   EXPECT_GT(kept_back, 0);
 }
 
-// A stop at any instant of set and go: whatever had been set is not started any more.
+// A stop at any instant of set and go: a setpoint that was set is no longer started.
 TEST(Hazard, H35_StopBetweenSetAndGo) {
   int cut = 0;
   for (Duration offset{}; offset < milliseconds(80) && !HasFailure(); offset += microseconds(410)) {
@@ -162,7 +162,7 @@ TEST(Hazard, H35_StopBetweenSetAndGo) {
   EXPECT_GT(cut, 5) << "no stop has come between a set and its go";
 }
 
-// Design rule 6: where the mode allows no stop, the caller is refused at once.
+// Design rule 6: if the mode allows no stop, the caller is refused at once.
 TEST(Hazard, H18_StopOffHostIsRefusedAtOnce) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -220,7 +220,7 @@ TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   moved(world, {{2, 1000}});
 }
 
-// BEC: does not clear an error that lasts as long as its cause: a scale that fails is reported until it works again.
+// BEC: does not clear an error that lasts as long as its cause: a failed scale is reported until it works again.
 TEST(Hazard, H20_WhatClearingDoesNotClear) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -252,7 +252,7 @@ class Refusals : public testing::Test {
  protected:
   Refusals() : world(limited()) { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
 
-  // 10 nm a pulse; axis 1 from -1 mm to 1 mm at 0.2 mm/s at most.
+  // A pulse is 10 nm; axis 1 moves from -1 mm to 1 mm at 0.2 mm/s at most.
   static simulation::Setup limited() {
     auto setup = quiet();
     auto& axis = setup.profile.axes[0];
@@ -262,7 +262,7 @@ class Refusals : public testing::Test {
     return setup;
   }
 
-  // What the request was refused for, at once and with nothing written.
+  // Returns the reason of the refusal, and expects it at once, with nothing written.
   Reason refused(MoveRequest request) {
     const std::size_t lines = world.wire().commands().size();
     std::optional<Reason> reason;
@@ -304,7 +304,7 @@ TEST_F(Refusals, OutsideTheTravelLimits) {
 
 TEST_F(Refusals, OutsideTheTravelLimitsFromWhereAnEarlierMoveEnds) {
   move_by(world, {{1, 90000}});
-  move_by(world, {{1, 90000}});  // where it begins is not known before the first has ended
+  move_by(world, {{1, 90000}});  // its start is unknown until the first has ended
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
   const Motion second = outcome_of(world, 2);
   EXPECT_EQ(second.state, MotionState::failed);

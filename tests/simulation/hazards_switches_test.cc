@@ -1,4 +1,4 @@
-// Hazard 24: permanent changes of memory switches are reported, with who made them.
+// Hazard 24: permanent changes of memory switches are reported, with the caller who made them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -38,7 +38,7 @@ TEST(Hazard, H24_TheDifferenceIsTold) {
   EXPECT_EQ(std::tuple(speed.item, speed.number, speed.after), std::tuple(5, 4, "778"));
 }
 
-// What the switches are is asked until two answers agree, four times at most; without that nothing is changed.
+// The switches are read until two answers agree, at most four times; otherwise nothing is changed.
 TEST(Hazard, H24_ADamagedAnswerIsAskedForAgain) {
   for (const int damaged : {2, 3}) {
     World world(quiet());
@@ -62,7 +62,7 @@ TEST(Hazard, H24_WhatIsSetAsItWasIsNoDifference) {
   EXPECT_TRUE(switches_told(world, {"MS:ON", "MS:SET,5,4,777", "MS:DEF,5,4", "MS:OFF"}).empty()) << world.replay();
 }
 
-// The way back saves what was set before the line was lost.
+// The return to HOST saves settings made before the line was lost.
 TEST(Hazard, H24_ADifferenceThatNobodyCanTell) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

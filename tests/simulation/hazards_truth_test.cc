@@ -1,4 +1,4 @@
-// Outcomes, stops and stale setpoints, one rule at a time. Each of these fails without the guard that it is about
+// Outcomes, stops and stale setpoints, one rule each. Each test fails without the guard that it tests
 // (tests/guards/table.cc).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Setup with_option(const char* name, const char* value) {
   return setup;
 }
 
-// Runs to the instant when axis 1 stands at `target` and still settles.
+// Runs until axis 1 is at `target` and still settles.
 void settle_at(World& world, std::int64_t target) {
   ASSERT_TRUE(world.run_until([&] { return world.device().position(1) == target; }, seconds(60))) << world.replay();
   ASSERT_TRUE(world.device().busy(1)) << "no settling to look at";
@@ -37,7 +37,7 @@ TEST(Hazard, H44_AnErrorAtTheVeryTargetIsNoSuccess) {
   EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::device_error) << world.replay();
 }
 
-// One flipped bit makes an R of the B of an axis that settles at its target, and no completion bears it out.
+// One flipped bit turns the B of an axis that settles at its target into an R, and no completion confirms it.
 TEST(Hazard, H04_OneMisreadReadyIsNotTheEnd) {
   int misread = 0;
   for (std::int64_t target = 3000; target < 3400 && !HasFailure(); target += 10) {
@@ -63,7 +63,7 @@ TEST(Hazard, H04_OneMisreadReadyIsNotTheEnd) {
   EXPECT_GT(misread, 0) << "no reading has met the settling";
 }
 
-// For a while after the start the status is the one of before (manual 85) G:).
+// For a while after the start the status is still the earlier one (manual 85) G:).
 TEST(Hazard, H03_AnOldReadyAfterTheStartIsNotTheEnd) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -77,7 +77,7 @@ TEST(Hazard, H03_AnOldReadyAfterTheStartIsNotTheEnd) {
   moved(world, {{1, 500000}});
 }
 
-// The line makes NG of the OK to a start, and the axis moves.
+// Changes the OK to a start into NG on the line, while the axis moves.
 void misread_start(const std::string& start, const std::function<void(World&)>& begin) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -100,7 +100,7 @@ TEST(Hazard, H03_ARefusalOfAHomeThatMoves) {
   misread_start("HRT", [](World& world) { home(world, AxisSet::of(1)); });
 }
 
-// A set whose OK was lost is looked up, not sent blindly a second time.
+// A set whose OK was lost is looked up, not sent a second time blindly.
 TEST(Hazard, H10_ASetThatArrivedIsNotSentAgain) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -109,7 +109,7 @@ TEST(Hazard, H10_ASetThatArrivedIsNotSentAgain) {
   EXPECT_EQ(written(world, "MP:"), 1) << world.replay();
 }
 
-// A stop comes while the next line of a motion waits behind somebody's question.
+// A stop comes while the next line of a motion waits for another caller's question.
 TEST(Hazard, H35_StopWhileALineWaitsItsTurn) {
   for (Duration offset{}; offset < milliseconds(100) && !HasFailure(); offset += microseconds(610)) {
     World world(quiet());
@@ -127,7 +127,7 @@ TEST(Hazard, H35_StopWhileALineWaitsItsTurn) {
   }
 }
 
-// A queued motion waits for the end of another one: when it is stopped, it ends at once.
+// A queued motion waits for the end of another motion: if it is stopped, it ends at once.
 TEST(Hazard, H37_AStoppedMotionThatWaitsEndsAtOnce) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -141,7 +141,7 @@ TEST(Hazard, H37_AStoppedMotionThatWaitsEndsAtOnce) {
   EXPECT_TRUE(world.device().busy(1));
 }
 
-// The set was lost, the stop comes while that is found out: it is not made up for.
+// The set was lost, and the stop comes before that is detected: the set is not sent again.
 TEST(Hazard, H35_NothingIsSetAgainAfterAStop) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -169,13 +169,13 @@ TEST(Hazard, H17_AStopThatWasLostIsWrittenAgain) {
   EXPECT_LT(world.now() - asked, seconds(2)) << world.replay();
 }
 
-// Whether L: clears the prebuffer is an open question: what it keeps is reported, and what it starts is stopped.
+// The manual leaves open whether L: clears the prebuffer: a kept segment is reported, and a started one is stopped.
 TEST(Hazard, H14_AStopThatKeepsThePrebuffer) {
   for (const char* reading : {"kept", "starts_next"}) {
     World world(with_option("stop_keeps_prebuffer", reading));
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     auto path = line_of(world, 8);
-    for (auto& segment : path.segments) segment.speed = pulses(2000);  // a second each: one always waits
+    for (auto& segment : path.segments) segment.speed = pulses(2000);  // a second each, so that one always waits
     world.controller().run_path(path, world.now(), [](Result<Motion>) {});
     world.run_for(milliseconds(600));
     const StopReport report = stopped(world);
@@ -200,12 +200,13 @@ TEST(Hazard, H38_StopsThatComeTogetherAreOne) {
   EXPECT_EQ(written(world, "L:"), 1) << world.replay();
 }
 
-// Left in the controller by somebody else, by a failure, or by a caller's own lines: it is found before a motion.
+// A setpoint left in the controller by another program, by a failure, or by a caller's own lines is found before a
+// motion.
 class StaleSetpoint : public testing::Test {
  protected:
   StaleSetpoint() : world(quiet()) {
     EXPECT_TRUE(world.run_until_up()) << world.replay();
-    moved(world, {{1, 100}});  // from now on the registers are known
+    moved(world, {{1, 100}});  // the registers are known from here on
   }
   void expect_refused() {
     const std::size_t before = world.outcomes().size();
@@ -221,7 +222,7 @@ TEST_F(StaleSetpoint, H12_BySomebodyElseWhileTheLineWasDown) {
   expect_refused();
 }
 
-// Seed 805722: two motions of different axes look for stale setpoints at once, and one begins to while the other does.
+// Seed 805722: two motions of different axes search for stale setpoints, the second while the first still searches.
 TEST(Hazard, H12_LookedForByTwoAtOnce) {
   for (int apart = 0; apart < 60 && !HasFailure(); apart += 2) {
     auto setup = quiet();
@@ -239,7 +240,8 @@ TEST(Hazard, H12_LookedForByTwoAtOnce) {
   }
 }
 
-// Who clears what is stale leaves alone what another has set on its axes a moment ago, and not yet started.
+// A motion that clears stale setpoints keeps a setpoint that another motion has just set on its axes and not yet
+// started.
 TEST(Hazard, H12_ClearedBesideOthersThatSet) {
   for (int apart = 0; apart < 120 && !HasFailure(); ++apart) {
     auto setup = quiet();
@@ -272,12 +274,12 @@ TEST_F(StaleSetpoint, H12_ByAMotionWhoseStartWasLost) {
 }
 
 TEST_F(StaleSetpoint, H12_ByACallersOwnLines) {
-  execute(world, {"AP:2+P0", "MP:1+P300", "G:1"});  // where axis 2 stands already
+  execute(world, {"AP:2+P0", "MP:1+P300", "G:1"});  // axis 2 is already there
   expect_refused();
 }
 
-// An axis moves that was not started from here, and only the status shows it. An axis number does not show it, since it
-// may not be that of the moving axis.
+// An axis moves that the gateway did not start, and only the status shows it. An axis number does not, since it may
+// belong to another axis.
 TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -298,7 +300,7 @@ TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   EXPECT_EQ(world.device().position(2), 60100);
 }
 
-// The late completion of a stopped move is not the next one's (manual 65) leaves open whether there is one).
+// The late completion of a stopped move does not belong to the next one (manual 65) leaves open whether there is one).
 TEST(Hazard, H57_TheLateCompletionOfAStoppedMove) {
   for (int late = 150; late < 225 && !HasFailure(); late += 3) {
     auto setup = with_option("completion_after_stop", "sent");
@@ -329,7 +331,7 @@ Setup axes_for_themselves() {
   return setup;
 }
 
-// Where prebuffers are the controller's, one running motion owns them all.
+// If the controller has only one set of prebuffers, one running motion owns them all.
 TEST(Hazard, H51_BesideAMotionAnotherIsSetInTheExecutionBuffer) {
   World world(axes_for_themselves());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

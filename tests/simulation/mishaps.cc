@@ -12,7 +12,7 @@ using std::chrono::seconds;
 
 namespace {
 
-// A strike at a byte waits for so many at most.
+// Maximum number of bytes for which a mishap waits.
 constexpr int kBytesAhead = 600;
 constexpr int kBytesOfSetAndGo = 40;
 constexpr const char* kOtherUnit = "9999999999";
@@ -117,7 +117,7 @@ void Mishaps::error(const char* kind, simulator::AxisError error) {
   });
 }
 
-// Nobody can send it to sleep while anything moves.
+// Puts the controller to sleep, unless an axis moves, because it then accepts no sleep.
 void Mishaps::fall_asleep() {
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     if (world_.device().busy(axis)) return;
@@ -127,7 +127,8 @@ void Mishaps::fall_asleep() {
   later(lasts_, [this] { (void)world_.device().set_sleep(false, world_.now()); });
 }
 
-// Within the reply limit: of a device that is slower for long, nobody can tell the old answers from the new.
+// Delays answers within the reply limit. If a device stays slower than that, old and new answers cannot be
+// distinguished.
 void Mishaps::slow() {
   const Duration delay = drawn(20, 400);
   if (!world_.wire().inject("device: slow")) return;
@@ -144,7 +145,7 @@ void Mishaps::unplugged() {
   if (world_.wire().inject("link: unplugged")) world_.wire().cut(world_.now(), lasts_);
 }
 
-// The cable is put into another unit, and back later. Only questions may be sent to that unit.
+// Puts the cable into another unit, and back later. Only questions may be sent to that unit.
 void Mishaps::another_unit() {
   const Duration away = drawn(50, 3000);
   const bool unit_known = world_.controller().state().device_epoch > 0;
@@ -168,7 +169,7 @@ void Mishaps::stuck_line() {
   if (world_.wire().inject("line: stuck")) world_.wire().hold_up(false, time);
 }
 
-// Somebody clears the error and excites the motors again.
+// Clears the error and excites the motors again, like a person.
 void Mishaps::put_right() {
   for (int axis = 1; axis <= kAxisCount; ++axis) world_.device().set_excitation(axis, true, world_.now());
   world_.controller().clear_errors({}, world_.context("keeper"), world_.now(), [](Result<void>) {});
