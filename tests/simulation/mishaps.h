@@ -1,5 +1,5 @@
-// What befalls the device and its plug, at random: it restarts, somebody touches its front panel or a limit sensor, its
-// cable is pulled or put into another unit. Each mishap is also undone later, as a person would do it.
+// Random mishaps of the device and its plug: the device restarts, a person touches its front panel or a limit sensor,
+// its cable is pulled or put into another unit. Each mishap is also undone later, as a person would do it.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,11 @@ namespace axisgate::simulation {
 
 class Mishaps {
  public:
-  // Strikes on its own as the world runs: at a drawn instant, at a drawn byte on the wire, or at one of a set-and-go,
-  // each as often. Draws from numbers of its own, so that a run without mishaps is the same as one before there were
-  // any.
+  // Causes mishaps while the world runs: at a drawn instant, at a drawn byte on the line, or at a byte of a set-and-go,
+  // each equally often. Draws from a separate random sequence, so that a run without mishaps stays the same.
   Mishaps(World& world, std::uint64_t seed, double an_hour);
 
-  // No more mishaps occur, and earlier ones are undone.
+  // Undoes all mishaps and causes no more.
   void undo_all();
 
  private:

@@ -1,6 +1,6 @@
-// A stop stays open until it is seen to be obeyed: every way of asking for one, at every fault of the line. From the
-// first line that is received after a fault, the stop is the next line written, and the axes rest in the time of two
-// exchanges and their deceleration. Every run prints one row of delays.
+// Tests that a stop stays open until it is confirmed: every kind of stop request, at every fault of the line. After the
+// first line that is received after a fault, the stop is the next line written, and the axes become stationary within
+// two exchanges and their deceleration. Every run prints one row of delays.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,13 +22,13 @@ using std::chrono::seconds;
 
 enum class Way { stop, emergency, cancel, lease_lost, taken_over, jog_silence, at_exit, crash };
 enum class Fault {
-  cut_before,  // nothing passes, and the port stays open: the stop is asked meanwhile
+  cut_before,  // no line passes, and the port stays open; the stop is requested meanwhile
   cut_during,
   cut_after,
   reply_lost,
   garbage,
   reopened,
-  killed,  // cut_before, and the daemon is killed meanwhile
+  killed,  // like cut_before, and the daemon is killed meanwhile
   restarted,
   another_unit
 };
@@ -121,7 +121,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
         return controller.advance(world_.now());
       }
       case Way::jog_silence:
-        return world_.run_for(milliseconds(500));  // nobody renews it
+        return world_.run_for(milliseconds(500));  // no client renews it
       case Way::at_exit:
         return controller.wind_down(world_.now(), [this](const WindDownReport&) { ended_ = true; });
       case Way::crash:
@@ -139,7 +139,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
                             .away = away});
   }
 
-  // Both ways, for that long; the port stays open.
+  // Loses lines in both directions for `time`; the port stays open.
   void cut(Duration time) {
     const TimePoint until = world_.now() + time;
     world_.wire().set_script([this, until](LineKind, const std::string&) {
@@ -216,7 +216,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
   std::optional<TimePoint> back_;
   struct Heard {
     TimePoint at{};
-    std::size_t lines = 0;  // written before
+    std::size_t lines = 0;  // lines written before
   };
   std::optional<Heard> heard_;
 };

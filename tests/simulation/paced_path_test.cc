@@ -1,5 +1,5 @@
-// A path of short segments at 38400 baud while sixteen callers ask without a pause: what the reservation of the line
-// for refills and their going first are needed for, shown by leaving them out.
+// Tests of a path of short segments at 38400 baud while sixteen callers ask without a pause. They leave out the
+// reservation of the line for refills, and the priority of refills, to show why both are needed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ struct Course {
   Pollers::Asks asks = Pollers::Asks::own_question;
   int segments = 10'000;
   milliseconds each = milliseconds(60);
-  Duration answer_delay{};  // of the controller
+  Duration answer_delay{};  // delay of the controller's answers
   Faults faults = Faults::none();
 };
 
@@ -123,7 +123,7 @@ Ended end_of(const Course& run) {
           pollers.longest_wait()};
 }
 
-// Wherever it ended, nothing of it was left out or done twice.
+// Expects that no segment was left out or executed twice, wherever the path ended.
 void expect_exact(const Ended& ended, const Course& run) {
   EXPECT_EQ(ended.motion.state, MotionState::succeeded);
   EXPECT_EQ(ended.motion.segments_done, run.segments);
@@ -158,7 +158,7 @@ TEST(PacedPath, TenThousandSegmentsWhileSixteenAskAQuestionEach) {
   EXPECT_LT(ended.longest_wait, kCallers * run.each) << "somebody was left behind";
 }
 
-// For contrast: a refill that takes its turn among the questions comes too late.
+// For contrast: a refill that waits its turn among the questions is too late.
 TEST(PacedPath, UnderrunsWhereRefillsDoNotGoFirst) {
   const Course run{.refills = Refills::among_questions, .segments = 1000};
   const Ended ended = end_of(run);
@@ -167,7 +167,7 @@ TEST(PacedPath, UnderrunsWhereRefillsDoNotGoFirst) {
   EXPECT_GT(ended.motion.underruns, run.segments / 4);
 }
 
-// A controller that takes 5 ms to answer: 25 ms are enough for a refill, and not for a refill behind a question.
+// A controller that takes 5 ms to answer: 25 ms are enough for a refill, but not for a refill after a question.
 const Course kTight{.segments = 1000, .each = milliseconds(25), .answer_delay = milliseconds(5)};
 
 TEST(PacedPath, NoUnderrunWhereNothingButRefillsFits) {
@@ -186,7 +186,7 @@ TEST(PacedPath, UnderrunsWhereTheLineIsNotKeptFree) {
   EXPECT_GT(ended.motion.underruns, run.segments / 100);
 }
 
-// Segments whose ends are not reported are late; that delays nobody for longer than kRefillReservedAfterDue.
+// Segments whose ends are not reported are late. They delay no question for longer than kRefillReservedAfterDue.
 TEST(PacedPath, QuestionsAreAnsweredThoughNoEndIsHeardOf) {
   Course run{.asks = Pollers::Asks::status, .segments = 100};
   run.faults.drop_notice = 1;

@@ -1,4 +1,4 @@
-// Paths of lines and curves with rests between.
+// Tests of paths of lines and curves with rests between them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -141,14 +141,14 @@ TEST(PathShapes, TheWholeCurveKeepsWithinTheTravel) {
   setup.profile.axes[1].travel_maximum = pulses(1999);
   World world(setup);
   ASSERT_TRUE(world.run_until_up());
-  // It ends where it began, and comes to 2000 on the way.
+  // The circle ends where it began, and reaches 2000 in between.
   EXPECT_EQ(refusal_of(world, {around(0, 1000, Rotation::counterclockwise, 1)}), Reason::outside_travel);
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
   run(world, {around(0, 999, Rotation::counterclockwise, 1)});
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
 }
 
-// Every seed draws one of each of the manual's open questions.
+// Every seed draws one interpretation of each of the manual's open questions.
 class PathShapesSeeds : public testing::TestWithParam<int> {};
 
 TEST_P(PathShapesSeeds, EndWhereTheirSumIs) {
@@ -172,13 +172,13 @@ TEST_P(PathShapesSeeds, EndWhereTheirSumIs) {
           first += a;
           second += b;
           break;
-        case 2: {  // half a turn leads to the other side of the center
+        case 2: {  // half a turn leads to the other side of the centre
           segments.push_back(around(a, b, Rotation::clockwise, Decimal{180, 0}));
           first += 2 * a;
           second += 2 * b;
           break;
         }
-        default:  // a quarter turn, counterclockwise: the center seen from the end is (-b, a)
+        default:  // a quarter turn, counterclockwise: the centre as seen from the end is (-b, a)
           segments.push_back(around(a, b, Rotation::counterclockwise, Decimal{90, 0}));
           first += a + b;
           second += b - a;
@@ -212,7 +212,7 @@ TEST(PathRests, TheAxesStandMeanwhile) {
   EXPECT_EQ(motion.segments_done, 3);
 }
 
-// It stands where the path would end: that it did not run on is no success.
+// The axis is where the path would end, but a path that did not continue is not a success.
 TEST(PathRests, AStopWhileItRests) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -276,7 +276,7 @@ TEST(PathRests, OneMisreadInputStartsNothing) {
   EXPECT_FALSE(stopped(world).problem);
 }
 
-// Somebody at the front panel moves an axis while the path rests.
+// A person at the front panel moves an axis while the path rests.
 TEST(PathRests, WhatWasMovedMeanwhileIsNoticed) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -286,7 +286,7 @@ TEST(PathRests, WhatWasMovedMeanwhileIsNoticed) {
   ASSERT_TRUE(world.run_until([&] { return world.device().position(1) == 1000; }, seconds(10)));
   world.run_for(milliseconds(500));
   const std::size_t lines = world.wire().commands().size();
-  // What moves the stage does not matter: its line is not the gateway's.
+  // The sender of this motion does not matter: its line is not the gateway's.
   world.wire().cut(world.now(), milliseconds(0));
   world.device().receive("M:1+P70\r\n", world.now());
   world.device().receive("G:1\r\n", world.now());
@@ -295,7 +295,7 @@ TEST(PathRests, WhatWasMovedMeanwhileIsNoticed) {
   EXPECT_EQ(written(world, "MP:", lines), 0) << world.replay();
 }
 
-// The lease of a path that waits for inputs ends, with motions to be finished: no switch starts it then.
+// The lease of a path that waits for inputs ends, with the policy to finish motions: the inputs then start nothing.
 TEST(PathRests, InputsStartNothingOnceTheLeaseHasEnded) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
@@ -323,7 +323,8 @@ TEST(PathRests, InputsStartNothingOnceTheLeaseHasEnded) {
   EXPECT_EQ(world.device().position(1), 1000) << world.replay();
 }
 
-// It ends a pulse beside where it begins, and may end a pulse beside that: standing where it begins is no success.
+// The circle ends a pulse beside its beginning, and may end another pulse further: an axis that stays at the beginning
+// is no success.
 TEST(PathShapes, ANearlyWholeCircleIsSeenToRun) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

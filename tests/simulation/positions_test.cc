@@ -1,5 +1,5 @@
-// Motions to saved positions: the position is read twice, checked against what is expected and against the envelope,
-// and watched like any motion (manual 127) to 136)).
+// Tests of motions to saved positions: the position is read twice, checked against the expected coordinates and the
+// envelope, and watched like any motion (manual 127) to 136)).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class ToPositions : public testing::Test {
 
   std::vector<std::string> exec(const std::string& line) {
     auto said = execute(world, {line});
-    world.run_for(milliseconds(200));  // and the transaction comes to its own end
+    world.run_for(milliseconds(200));  // until the end of the transaction
     return said;
   }
 
@@ -30,7 +30,7 @@ class ToPositions : public testing::Test {
     return {place, number, std::move(expected), world.context("tester")};
   }
 
-  // At its outcome; of one that never started, only the problem.
+  // Returns the motion at its outcome, or only its problem if it never started.
   Motion go(GoToPositionRequest request) {
     auto answer = std::make_shared<std::optional<Result<Motion>>>();
     world.controller().go_to_position(std::move(request), world.now(),
@@ -116,7 +116,7 @@ TEST_F(ToPositions, NothingMovesWhereARestartHasEmptiedThePlace) {
     EXPECT_EQ(motion.problem->wire_reply, "NG");
   }
   EXPECT_EQ(written(world, "PIT:G,") + written(world, "PIT:GRT"), 0);
-  // Coordinates outlive it (ERRATA.md, 128) 133)).
+  // Coordinates survive the restart (ERRATA.md, 128) 133)).
   EXPECT_EQ(go(to(false, 1, {{1, 1000}, {2, 0}, {3, 0}})).state, MotionState::succeeded) << world.replay();
 }
 
@@ -128,7 +128,7 @@ TEST_F(ToPositions, ANumberThatSomebodyElseHasUsed) {
   EXPECT_EQ(written(world, "PAV:GRT"), 0);
 }
 
-// One byte that the line lost would make another place of it.
+// One byte lost on the line would change the place.
 TEST_F(ToPositions, WhatIsToldOnceIsNotBelieved) {
   moved(world, {{1, 1000}});
   exec("PAV:SET,1");
@@ -167,7 +167,7 @@ TEST_F(ToPositions, NgIsExplained) {
   EXPECT_EQ(world.device().position(1), 100);
 }
 
-// Its answer was lost, and it is not sent again.
+// The answer to the start is lost, and the start is not sent again.
 TEST_F(ToPositions, AStartWhoseAnswerIsLost) {
   exec("PAV:SET,1");
   moved(world, {{1, 2000}});
@@ -180,7 +180,7 @@ TEST_F(ToPositions, AStartWhoseAnswerIsLost) {
   EXPECT_EQ(world.device().position(1), 2000);
 }
 
-// A stop that comes while the position is read.
+// A stop comes while the position is read.
 TEST_F(ToPositions, AStopBeforeTheStart) {
   exec("PAV:SET,1");
   moved(world, {{1, 2000}});
@@ -224,7 +224,7 @@ TEST_F(ToPositionsWithin, OutsideTheTravelEnvelope) {
   exec("PSET:1+P6000");
   exec("PAV:SET,1");
   exec("PSET:1+P0");
-  // Refused before the position is read, and as the controller reports it.
+  // Refused before the position is read, and again when the controller reports it.
   EXPECT_EQ(reason_of(go(to(false, 1, {{1, 6000}, {2, 0}, {3, 0}}))), Reason::outside_travel);
   EXPECT_EQ(written(world, "PAV:GET"), 0);
   EXPECT_EQ(world.controller().check(to(false, 1, {{1, 6000}})).error().reason, Reason::outside_travel);
@@ -233,7 +233,7 @@ TEST_F(ToPositionsWithin, OutsideTheTravelEnvelope) {
   EXPECT_EQ(written(world, "PAV:GRT"), 0) << world.replay();
 }
 
-// Slowed down for this motion alone, as a move is (manual 68), 89)).
+// Slowed down for this motion alone, like a move (manual 68), 89)).
 TEST_F(ToPositionsWithin, NoFasterThanAllowed) {
   exec("PAV:SET,1");
   moved(world, {{2, 4000}});

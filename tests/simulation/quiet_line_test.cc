@@ -1,4 +1,4 @@
-// On a perfect line everything simply works, in few exchanges.
+// Tests on a perfect line, where everything works in few exchanges.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@ namespace {
 using namespace shrc203;
 using std::chrono::seconds;
 
-// The poll of the motors: ?:C itself, not ?:CMD.
+// Counts the polls of the motors: ?:C itself, not ?:CMD.
 int motor_questions(World& world, std::size_t first) {
   return written(world, "?:C", first) - written(world, "?:CMD", first);
 }
 
-// An idle poll is ?:CMD, since a pause has come before it, then the positions and the motors, and no more.
+// An idle poll is ?:CMD, because a pause came before it, then the positions and the motors, and no more.
 TEST(QuietLine, ExchangesOfAnIdlePoll) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -49,7 +49,7 @@ TEST(QuietLine, HomeThenMoveReachesTheTarget) {
   EXPECT_EQ(world.device().starts(1), 2);
 }
 
-// Also while the unit's lag is sought: hardly a move is asked twice for.
+// While the gateway measures the unit's lag, it rarely asks twice about a move.
 TEST(QuietLine, ManyMovesTakeHardlyMoreThanThreeExchangesEach) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -97,7 +97,7 @@ TEST(QuietLine, StopEndsAMotion) {
   EXPECT_LT(world.device().position(1), 500000);
 }
 
-// Hazard 28: the speeds of one user's motion are not the next one's.
+// Hazard 28: the speeds of one user's motion do not apply to the next user's motion.
 TEST(QuietLine, SpeedsDoNotOutliveTheirMotion) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -124,7 +124,8 @@ TEST(QuietLine, ExecuteAnswers) {
   EXPECT_THAT(execute(world, {"MP:2+P100", "G:2"}), testing::ElementsAre("OK", "OK", "completion 2"));
 }
 
-// Known registers, a line to itself: set, go, and one reading when this unit is READY, as the move before has shown.
+// With known registers and an idle line: set, go, and one reading when this unit is READY, by the lag of the move
+// before.
 TEST(QuietLine, ExchangesOfAMove) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -135,7 +136,7 @@ TEST(QuietLine, ExchangesOfAMove) {
   EXPECT_THAT(lines, testing::ElementsAre("MP:1+P100", "G:1", "Q:SPC"));
 }
 
-// Callers who may have a state that is 100 ms old share the question in flight; for others there is another one.
+// Callers who accept a state that is 100 ms old share the question in flight; the others get another one.
 TEST(QuietLine, CallersShareAQuestionInFlight) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -159,7 +160,7 @@ TEST(QuietLine, CallersShareAQuestionInFlight) {
   EXPECT_EQ(written(world, "Q:SPC", first), 3) << world.replay();
 }
 
-// What a caller asks often enough the gateway does not ask besides.
+// The gateway does not poll a state that a caller reads often enough.
 TEST(QuietLine, ACallersQuestionTakesThePlaceOfAPoll) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -173,7 +174,7 @@ TEST(QuietLine, ACallersQuestionTakesThePlaceOfAPoll) {
   EXPECT_LE(world.now() - world.controller().state().read, std::chrono::milliseconds(200));
 }
 
-// A setting of speeds, and what the controller made of it.
+// A setting of speeds, and the read-back of the result.
 TEST(QuietLine, ExchangesOfASpeedSetting) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

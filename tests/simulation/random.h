@@ -1,4 +1,5 @@
-// One seed, one run: the same numbers on every machine, which the standard library's distributions do not promise.
+// Random numbers that are the same for a seed on every machine, which the standard library's distributions do not
+// guarantee.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
     return z ^ (z >> 31);
   }
-  // Both ends included.
+  // Returns a number from `low` to `high`, both included.
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(high - low + 1));
   }

@@ -1,5 +1,5 @@
-// The recorder under everything the simulation can do to a line: the recording holds every byte, and the core does the
-// same again when it is fed with it.
+// Tests of the recorder under every fault of the simulated line: the recording has every byte, and the core does the
+// same again when fed with it.
 #include "device/stage/recording/recorder.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ using namespace shrc203;
 using std::chrono::minutes;
 using std::chrono::seconds;
 
-// Stands between the wire and the gateway and keeps what comes in.
+// A Tap between the wire and the gateway keeps the bytes received.
 class Tap : public LineMachine {
  public:
   explicit Tap(LineMachine& gateway) : gateway_(gateway) {}
@@ -37,7 +37,7 @@ class Tap : public LineMachine {
   LineMachine& gateway_;
 };
 
-// A world and the recording of it from the first connect on.
+// A world with its recording from the first connect on.
 class RecordedWorld {
  public:
   explicit RecordedWorld(Setup setup)
@@ -69,7 +69,7 @@ class RecordedWorld {
   Tap tap_{world_.controller()};
 };
 
-// All bytes of one direction, as they stand in the recording.
+// Returns all bytes of one direction in the recording.
 std::string bytes(const Recording& recording, RecordedItem::Kind kind) {
   std::string all;
   for (const auto& line : recording.lines) {
@@ -93,7 +93,8 @@ std::string line_of(std::string_view text, int number) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-// The recording's line, what it says and what the core did; empty without a difference.
+// Returns each difference as text: the line of the recording, the recorded event and what the core did. Empty without a
+// difference.
 std::string differences(const std::string& text) {
   std::string all;
   for (const auto& one : replay(parsed(text)).differences) {
@@ -127,13 +128,13 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   EXPECT_EQ(differences(text), "");
 }
 
-// 7000: a question that waited until no number could come. 7001: an identity reported twice, the second directly after
-// the first. 7002, 7003: an exchange requested just after the line had sent a question of its own. 20094, 20114: two
-// stops that waited for the end of one exchange.
+// 7000: a question that waited until no completion was outstanding. 7001: an identity reported twice, the second
+// directly after the first. 7002, 7003: an exchange requested just after the line had sent its own question. 20094,
+// 20114: two stops that waited for the end of one exchange.
 INSTANTIATE_TEST_SUITE_P(Hostile, Recorded,
                          testing::Values(7000, 7001, 7002, 7003, 7004, 7005, 7006, 7007, 20094, 20114));
 
-// A recording that is begun when the stage has been in use for long.
+// A recording that begins when the stage has been in use for a long time.
 TEST(RecordedFromTheMiddle, IsDoneAgain) {
   RecordedWorld recorded(drawn_setup(7100, Faults::none()));
   Callers callers(recorded.world(), 7100);
@@ -157,7 +158,7 @@ TEST(RecordedFromTheMiddle, IsDoneAgain) {
   EXPECT_GT(begun, 10);
 }
 
-// The core that another reply limit makes of it stands for one that has been changed.
+// Another reply limit makes the core behave differently, like changed code.
 TEST(RecordedOnABadLine, IsNotDoneByAnotherCore) {
   RecordedWorld recorded(drawn_setup(7200, Faults::hostile()));
   Callers callers(recorded.world(), 7200);

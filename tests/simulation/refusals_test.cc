@@ -1,4 +1,5 @@
-// Each condition for NG that the manual names: the device refuses, and the gateway says why, or sees it coming.
+// Tests of each condition for NG that the manual names: the device refuses and the gateway gives the reason, or the
+// gateway refuses beforehand.
 #include "device/shrc203/command/refusals.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ std::function<void(World&)> error(AxisError error) {
   return [error](World& world) { world.device().set_error(1, error, true, world.now()); };
 }
 
-// As by somebody at another cable: the device's answers to that person do not come here.
+// Sends a line as if from another cable: the device's answers do not reach the gateway.
 void behind_its_back(World& world, const std::string& line) {
   world.wire().set_script([](LineKind kind, const std::string&) -> Scripted {
     return {kind == LineKind::reply, {}, {}};
@@ -86,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Conditions, Refused, testing::ValuesIn(conditions()), [
   return name;
 });
 
-// "In the case of Busy": somebody at the front panel moves it, and the gateway has not looked yet.
+// "In the case of Busy": a person at the front panel moves the axis, and the gateway has not read the status yet.
 TEST(WhyNg, BusyIsTold) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -110,7 +111,7 @@ TEST(WhyNg, TheModeIsTold) {
   EXPECT_EQ(execute(world, {"BEEP:0"}).back(), "WRONG_MODE") << world.replay();
 }
 
-// Only what nobody can ask about is left without an explanation, and then all that is known stands there.
+// A refusal stays unexplained only if no question can explain it; the message then states everything known.
 TEST(WhyNg, WhatNothingTellsIsUnexplained) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -127,7 +128,7 @@ TEST(WhyNg, WhatNothingTellsIsUnexplained) {
   EXPECT_NE(problem.message.find("axis 1 is READY, its motor is on"), std::string::npos) << problem.message;
 }
 
-// What is known is asked again, since somebody may have seen to it; then nothing is sent.
+// A known condition is read again, since a person may have fixed it; if it persists, nothing is sent.
 TEST(WhyNg, NothingIsSentWhereAMotorIsKnownToBeOff) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -140,7 +141,7 @@ TEST(WhyNg, NothingIsSentWhereAMotorIsKnownToBeOff) {
   moved(world, {{1, 100}});
 }
 
-// One table, which is all that explains: each of its rows has a hint.
+// One table explains all conditions, and each of its rows has a hint.
 TEST(WhyNg, EveryConditionSaysWhatToDo) {
   for (const AxisCondition& condition : axis_conditions()) {
     EXPECT_FALSE(condition.what.empty() || condition.hint.empty()) << condition.name;

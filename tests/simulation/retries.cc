@@ -17,8 +17,8 @@ using api::RequestKind;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::int64_t kShort = 500, kLong = 20'000;  // pulses; the number of the way is added
-constexpr std::size_t kRetried = 5;                   // the newest requests of a user
+constexpr std::int64_t kShort = 500, kLong = 20'000;  // pulses; the number of the displacement is added
+constexpr std::size_t kRetried = 5;                   // number of a user's newest requests
 constexpr int kLinesBetweenKillsMin = 30, kLinesBetweenKillsMax = 400, kLinesOfHangMax = 20;
 
 Setup setup_of(std::uint64_t seed, const Faults& faults, Permission& permission) {
@@ -62,9 +62,9 @@ void Retries::become_stationary() {
            std::ranges::all_of(motions, [](const Motion& motion) { return is_outcome(motion.state); });
   };
   lines_to_hang_ = lines_to_kill_ = 0;
-  world_.run_for(seconds(8));  // what is under way to the daemon comes, and its time passes
+  world_.run_for(seconds(8));  // messages in transit to the daemon arrive, and their time passes
   if (!world_.run_until(stationary, seconds(120))) {
-    // A wrong bit may have made of a speed another that is as good, only slower: what really moves is no fault.
+    // A wrong bit may have changed a speed into a slower valid one: an axis that really moves is no fault.
     if (!anything_moves()) world_.violation("two quiet minutes after the last request a motion is still unfinished");
     return;
   }
@@ -134,7 +134,7 @@ void Retries::duplicate(User& user) {
   for (int i = 0; i < 3; ++i) send(user, user.wanted.back(), milliseconds(world_.random().between(0, 40)));
 }
 
-// Another request under the same id.
+// Sends another request under the same id.
 void Retries::reuse(User& user) {
   if (user.wanted.empty()) return;
   Wanted other = drawn_request(user);
@@ -142,7 +142,8 @@ void Retries::reuse(User& user) {
   send(user, other, drawn_delay());
 }
 
-// A crash forgets the lease, and its token comes again later; so does one that has expired.
+// Acquires a lease, or lets go of the one held. A crash forgets the lease, and its token is used again later, like that
+// of an expired lease.
 void Retries::use_leases(User& user) {
   auto& random = world_.random();
   if (user.lease.token != 0) {
@@ -170,7 +171,7 @@ Duration Retries::drawn_delay() {
   return milliseconds(random.chance(0.15) ? random.between(50, 7000) : random.between(0, 30));
 }
 
-// What a killed daemon had still to do is not done.
+// Runs an operation after a delay, unless the daemon is killed before.
 void Retries::later(Duration delay, std::function<void()> deed) {
   world_.at(world_.now() + delay, [this, run = run_, deed = std::move(deed)] {
     if (run == run_) deed();
@@ -189,7 +190,8 @@ void Retries::send(const User& user, const Wanted& wanted, Duration delay) {
   later(delay, [this, message] { arrive(message); });
 }
 
-// As api::Pipeline::act(). The journal's disk takes a while, and the controller looks whether the right is there.
+// Handles a message like api::Pipeline::act(). The journal's disk takes a while, and the controller checks the right to
+// move.
 void Retries::arrive(const MessagePtr& message) {
   const Wanted& wanted = message->wanted;
   Acted& acted = acted_[wanted.key()];
@@ -234,7 +236,7 @@ void Retries::begin(const MessagePtr& message, const std::shared_ptr<Mutation>& 
       world_.controller().return_to_origin({axis, context}, world_.now(), started);
       break;
     case RequestKind::jog:
-      // Nobody lets it run on: it ends by itself.
+      // No caller renews it, so it ends without a request.
       world_.controller().jog({{{axis.lowest(), 1, pulses(1000)}}, context}, world_.now(), started);
       break;
     case RequestKind::run_path: {
@@ -257,7 +259,7 @@ void Retries::begin(const MessagePtr& message, const std::shared_ptr<Mutation>& 
   asking_ = nullptr;
 }
 
-// As Execution::remember() in server/api/stage/commands.cc.
+// Executes a transaction like Execution::remember() in server/api/stage/commands.cc.
 void Retries::execute(const MessagePtr& message, const std::shared_ptr<Mutation>& mutation) {
   const auto& [axis, way] = message->wanted.ways.front();
   ExecuteRequest request{
@@ -274,7 +276,7 @@ void Retries::execute(const MessagePtr& message, const std::shared_ptr<Mutation>
   });
 }
 
-// As repeat_motion() in server/api/request/repeats.cc, and Execution::repeat().
+// Answers a repeat like repeat_motion() in server/api/request/repeats.cc, and Execution::repeat().
 void Retries::repeat(const MessagePtr& message, const Result<Known>& known) {
   if (!known) return count(known.error());
   ++counts_.repeated;
@@ -317,7 +319,7 @@ void Retries::come_closer_to_kill() {
     daemon_->let_disk_hang();
   }
   if (lines_to_kill_ == 0 || --lines_to_kill_ > 0) return;
-  // Before this line has gone out, within it or behind it.
+  // The kill comes before, within or after this line.
   later(milliseconds(world_.random().between(0, 6)), [this] { kill(); });
 }
 

@@ -1,6 +1,6 @@
-// Twenty users who repeat what they request: their answers are lost, their messages come twice, late and in another
-// order, and the daemon is killed between. A ledger of its own says what the controller was sent of each request, and
-// the simulator where its axes were.
+// Twenty users who repeat their requests: answers are lost, messages arrive twice, late and in another order, and the
+// daemon is killed in between. A separate ledger records the lines sent to the controller for each request, and the
+// simulator's axis positions.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ class Retries {
   Retries(std::uint64_t seed, const RetryTerms& terms);
 
   void act_for(Duration duration);
-  // The line is made perfect, every motion ends, and what is on file is compared.
+  // Makes the line perfect, waits for the end of every motion, and checks the files.
   void become_stationary();
   World& world() { return world_; }
 
@@ -48,22 +48,22 @@ class Retries {
   using Known = server::journal::RequestMemory::Known;
   using Places = std::array<std::int64_t, stage::kAxisCount>;
 
-  // What a user wants done. Its ways, in pulses, are no other's.
+  // A request of one user. Its displacements, in pulses, are unique.
   struct Wanted {
     std::string who, id;
     api::RequestKind kind{};
-    std::vector<std::pair<int, std::int64_t>> ways{};  // axis and way; one of 0 where the kind has none
+    std::vector<std::pair<int, std::int64_t>> ways{};  // axis and displacement; one entry with 0 if the kind has none
     std::string mark{};
 
     Key key() const { return {who, id}; }
     std::string digest() const;
   };
-  // One attempt at it.
+  // One attempt at a request.
   struct Message {
     Wanted wanted;
     stage::RequestContext context;
     std::uint64_t sequence = 0;
-    bool outdated = false;  // its lease is of a run that was killed
+    bool outdated = false;  // its lease belongs to a run that was killed
   };
   using MessagePtr = std::shared_ptr<const Message>;
   struct Granted {
@@ -76,19 +76,19 @@ class Retries {
     Granted lease{};
     std::vector<Granted> old_leases{};
   };
-  // What is known of an id, whatever was requested under it.
+  // Facts about an id, for all requests under it.
   struct Acted {
-    std::set<stage::MotionId> written;      // its motions of which a line has gone out
-    std::optional<stage::MotionId> motion;  // as it was answered
+    std::set<stage::MotionId> written;      // motions of this id with a line sent
+    std::optional<stage::MotionId> motion;  // as answered
     int firsts = 0;                         // answers that were not marked as repeated
-    std::string answer;                     // of Execute
-    std::uint64_t newest = 0;               // the last of its messages that came
+    std::string answer;                     // answer to Execute
+    std::uint64_t newest = 0;               // sequence of the newest message received
   };
   struct MotionFacts {
-    MessagePtr message;  // null: nobody's
+    MessagePtr message;  // null: no user's motion
     bool written = false;
     bool start_written = false;
-    std::optional<Places> from{};  // where the axes were when its first line was written
+    std::optional<Places> from{};  // positions of the axes when the motion's first line was written
     std::optional<stage::MotionState> outcome{};
     Places ended_at{};
     bool may_lack_rows = false;  // the disk hung, or the daemon was killed
@@ -141,11 +141,11 @@ class Retries {
   std::vector<User> users_;
   std::map<Key, Acted> acted_;
   std::map<stage::MotionId, MotionFacts> motions_;
-  MessagePtr asking_;  // while the controller is asked
+  MessagePtr asking_;  // the message that the controller is handling
   std::int64_t last_way_ = 0;
   std::uint64_t last_sequence_ = 0;
-  int lines_to_hang_ = 0, lines_to_kill_ = 0;  // 0: none is due
-  std::set<std::int64_t> started_;             // ways, of which the controller received the start
+  int lines_to_hang_ = 0, lines_to_kill_ = 0;  // 0: no hang or kill is due
+  std::set<std::int64_t> started_;             // displacements whose start the controller received
   Counts counts_;
 };
 

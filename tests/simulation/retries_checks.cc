@@ -1,5 +1,5 @@
-// What must hold whatever is repeated: looked at with every line that goes out and every motion that ends, and at the
-// end of a seed on file and in what the controller received.
+// Checks for repeated requests: at every line sent and at every end of a motion, and, at the end of a seed, in the
+// files and in the lines that the controller received.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string_view text_of(const Json& body, const char* key) {
   return found == body.end() ? std::string_view() : std::string_view(found->get_ref<const std::string&>());
 }
 
-// The amounts of a line, "M:A+P501-P502": their numbers.
+// Returns the numbers of a line such as "M:A+P501-P502".
 std::vector<std::int64_t> amounts_in(std::string_view line) {
   std::vector<std::int64_t> all;
   for (std::size_t at = line.find('P', line.find(':')); at != line.npos; at = line.find('P', at + 1)) {
@@ -34,12 +34,12 @@ std::vector<std::int64_t> amounts_in(std::string_view line) {
   return all;
 }
 
-// Of a motion's line: the letter behind the colon.
+// Returns the axes of a motion's line, from the letter after the colon.
 AxisSet axes_of(std::string_view line) {
   return from_command_letter(line[line.find(':') + 1], AxisSet::all()).value_or(AxisSet());
 }
 
-// J:, too, is followed by G:.
+// Reports whether the line is a setting that G: starts, including J:.
 bool sets(std::string_view line) { return sets_motion(line) || line.starts_with("J:"); }
 
 }  // namespace
@@ -75,7 +75,7 @@ void Retries::note(const BytesWritten& written) {
   if (facts.message->outdated) {
     world_.violation(fmt::format("{} of {} moves under a lease of a daemon before", wanted.id, wanted.who));
   }
-  // By one reading of the manual a set axis may start without its G:, so this is where it starts from.
+  // Under one interpretation of the manual an axis may start without its G:, so the motion starts from here.
   if (!facts.from) facts.from = places();
   if (starts && !std::exchange(facts.start_written, true) && world_.now() > facts.message->context.not_after) {
     world_.violation(fmt::format("{} of {} starts after its not_after", wanted.id, wanted.who));
@@ -98,7 +98,8 @@ void Retries::note(const MotionChanged& change) {
   check_way(motion, facts);
 }
 
-// A success went the whole way, from where the simulator's axes were when its first line was written.
+// Checks that a successful motion went the whole distance from the simulator's positions when its first line was
+// written.
 void Retries::check_way(const Motion& motion, const MotionFacts& facts) {
   if (motion.state != MotionState::succeeded || !facts.message || world_.wire().damaged_since(TimePoint{})) return;
   const Wanted& wanted = facts.message->wanted;
@@ -120,7 +121,7 @@ void Retries::check_way(const Motion& motion, const MotionFacts& facts) {
   }
 }
 
-// All answers to one request name the same motion, and all but one are marked.
+// Checks that all answers to one request name the same motion, and that all but one are marked as repeated.
 void Retries::answered(const Wanted& wanted, MotionId motion, bool repeated) {
   Acted& acted = acted_[wanted.key()];
   if (acted.motion && *acted.motion != motion) {
@@ -132,7 +133,7 @@ void Retries::answered(const Wanted& wanted, MotionId motion, bool repeated) {
   if (acted.firsts > 1) world_.violation(fmt::format("{} of {} was done twice", wanted.id, wanted.who));
 }
 
-// Of Execute. A kill may lose what it answered, and then nobody knows.
+// Checks an answer to Execute. A kill may lose the answer, which is then unknown.
 void Retries::check_answer(const Wanted& wanted, const std::string& answer) {
   std::string& before = acted_[wanted.key()].answer;
   const auto problem = server::journal::problem_in(answer);
@@ -161,7 +162,7 @@ void Retries::check_journal() {
   }
 }
 
-// The rows of a motion come in the order of their numbers: requested, started, ended.
+// Checks that the rows of a motion come in the order of their kinds: requested, started, ended.
 void Retries::check_row(const server::journal::StoredEntry& row, std::map<MotionId, int>& last_kinds) {
   const auto found = motions_.find(row.entry.motion);
   if (found == motions_.end()) {
@@ -195,8 +196,8 @@ void Retries::check_end(const server::journal::StoredEntry& row, const MotionFac
   counts_.unknown += text_of(body, "outcome") == name(MotionState::unknown) ? 1 : 0;
   if (text_of(body, "reason") == name(Reason::not_sent)) {
     ++counts_.never_sent;
-    // Without results it is of the daemon after the kill. The controller itself may have set the axis, and seen that
-    // the start did not arrive.
+    // A row without results was written by the daemon after the kill. With results, the controller itself may have set
+    // the axis and seen that the start was not received.
     if (facts.written && !body.contains("results")) wrong("denies a line that was written");
     if (facts.written && was_started(facts)) wrong("denies a start that arrived");
   }
@@ -209,7 +210,8 @@ void Retries::check_end(const server::journal::StoredEntry& row, const MotionFac
   }
 }
 
-// What the memory has without an end is on file, and nothing else; and of what was answered the motion is.
+// Checks that exactly the requests open in memory are open on file, and that each answered request has its motion on
+// file.
 void Retries::check_requests_on_file() {
   auto store = server::journal::Store::open_to_read(folder_.journal());
   const auto on_file = store ? store->requests() : tl::unexpected(store.error());
@@ -230,7 +232,8 @@ void Retries::check_requests_on_file() {
   for (const auto& [identity, id] : open) world_.violation(fmt::format("{} of {} is not on file", id, identity));
 }
 
-// By the lines that the controller received: for which ways it was set and then started. Each has a number of its own.
+// Checks in the lines that the controller received that no displacement was set and then started twice. Each
+// displacement is unique.
 void Retries::check_received() {
   if (world_.wire().commands_damaged() > 0) return;
   std::map<int, std::int64_t> set;
@@ -256,7 +259,7 @@ bool Retries::was_started(const MotionFacts& facts) const {
          });
 }
 
-// It has set an axis in motion at most once for each way that was sent.
+// Checks that the controller has started an axis at most once for each displacement sent.
 void Retries::check_starts() {
   std::array<int, kAxisCount> starts{};
   for (const auto& [id, facts] : motions_) {

@@ -46,7 +46,7 @@ TEST_P(RetrySeeds, NothingMovesTwice) {
 
 INSTANTIATE_TEST_SUITE_P(Ordinary, RetrySeeds, testing::Range(0, seed_cases(kRetrySeeds, kRetrySeedsACase)));
 
-// So that the seeds above show something: all that can happen to a request does.
+// Ensures that the seeds above test something: every event that a request can have occurs.
 TEST(RetrySeedsShow, EverythingHappens) {
   Retries::Counts sum;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -77,8 +77,8 @@ TEST(RetrySeedsShow, EverythingHappens) {
   EXPECT_THAT(counts, testing::Each(testing::Gt(10)));
 }
 
-// A memory that keeps one request alone, and users who do not say up to where they know it: requests act twice, and
-// that is noticed.
+// With a memory of a single request, and users who do not send the mark of the memory, requests act twice, and the
+// checks detect it.
 TEST(RetrySeedsShow, WhatAForgetfulMemoryDoesTwice) {
   int acted_again = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

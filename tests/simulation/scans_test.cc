@@ -1,4 +1,4 @@
-// Scans: constant speed over the range, the pulses that are due, and a trigger that is again what it was.
+// Tests of scans: constant speed over the range, the expected pulses, and a trigger that is restored.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(Scan, RunsAtOneSpeedThroughTheRange) {
   ASSERT_TRUE(world.run_until_up());
   start(world, scan_of(world, 2'000, 22'000, 100));
   ASSERT_TRUE(world.run_until([&] { return world.device().trigger() != "NS"; }, seconds(20)));
-  // Looked at each millisecond: the line's own steps are up to a poll apart.
+  // Read every millisecond: readings on the line are up to a poll apart.
   const auto reaches = [&](std::int64_t place) {
     for (int ms = 0; ms < 20'000 && world.device().position(1) < place; ++ms) world.run_for(milliseconds(1));
     return world.now();
@@ -141,7 +141,7 @@ TEST(Scan, WhatWasArmedBeforeIsArmedAgain) {
   EXPECT_EQ(world.device().trigger(), before) << world.replay();
 }
 
-// The line is lost while it runs: nobody moves with somebody else's trigger armed.
+// The line is lost during the scan: no other caller may move with its trigger armed.
 TEST(Scan, ALostLineDisarmsLater) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -154,7 +154,7 @@ TEST(Scan, ALostLineDisarmsLater) {
   EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
 }
 
-// A line that is lost under a first scan, and a second one by somebody else: what was there before both is there again.
+// The line is lost during a first scan, and another scan follows: the trigger from before both is restored.
 TEST(Scan, OnesThatFollowALostOneLeaveNoTrigger) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -163,7 +163,7 @@ TEST(Scan, OnesThatFollowALostOneLeaveNoTrigger) {
   world.wire().cut(world.now(), seconds(1));
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::unknown) << world.replay();
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  // The first two tries to take it back are lost.
+  // The first two attempts to restore the trigger are lost.
   world.wire().set_script([&world, lost = 0](LineKind kind, const std::string&) mutable -> Scripted {
     const bool hit = kind == LineKind::reply && world.wire().commands().back() == "T:S" && ++lost <= 2;
     return {.drop = hit, .delay = {}, .instead = {}};
@@ -174,7 +174,7 @@ TEST(Scan, OnesThatFollowALostOneLeaveNoTrigger) {
   EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
 }
 
-// The line makes an NG of the answer to T:, which the controller has taken.
+// The line changes the answer to T: into NG, although the controller accepted the command.
 TEST(Scan, AFalseRefusalOfTheTriggerLeavesNone) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

@@ -1,4 +1,4 @@
-// What the hazard tests have in common: a good line, requests in one call, and what came of them.
+// Common parts of the hazard tests: a good line, requests in one call, and their results.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace axisgate::simulation {
 
-// A perfect line at 38400 baud and the simulator's usual readings.
+// Returns a perfect line at 38400 baud with the simulator's default interpretations.
 Setup quiet();
-// The same, with `permission` to decide who may move what.
+// Returns the same with `permission`, which decides who may move which axes.
 Setup shared_by(stage::Permission& permission);
 
 inline constexpr stage::AxisSet kOne = stage::AxisSet::of(1), kTwo = stage::AxisSet::of(2);
@@ -21,36 +21,37 @@ stage::MoveRequest move_of(const World& world, const Ways& ways, bool relative);
 void move_by(World& world, const Ways& ways);
 void move_for(World& world, const std::string& who, const Ways& ways);
 
-// Why a move by `ways` is refused at once; unspecified if it is not.
+// Returns the reason for which a move by `ways` is refused at once; unspecified if it is not.
 Reason refusal_of(World& world, const Ways& ways);
 
-// A straight line of axes 1 and 2: -1000 and 2000 by turns of axis 1, 2000 each of axis 2, a tenth of a second each.
+// Returns a straight line of axes 1 and 2: -1000 and 2000 in turn for axis 1, 2000 each for axis 2, a tenth of a second
+// each.
 stage::PathRequest line_of(const World& world, int segments);
 void home(World& world, stage::AxisSet axes);
-Reason reason_of(const stage::Motion& motion);  // unspecified when there is no problem
+Reason reason_of(const stage::Motion& motion);  // unspecified if there is no problem
 
-// Both run the world to an answer; a motion's outcome at most `limit` later.
+// Run the world until the answer, or until the motion's outcome, at most for `limit`.
 std::vector<std::string> execute(World& world,
                                  std::vector<std::string> lines);  // replies, "completion 1", a problem's name
 stage::Motion outcome_of(World& world, std::size_t number, Duration limit = std::chrono::seconds(30));
 
-// A move by `ways` that has succeeded.
+// Moves by `ways` and expects success.
 void moved(World& world, const Ways& ways);
-// A stop of all axes and what was reported of it.
+// Stops all axes and returns the report.
 stage::StopReport stopped(World& world, Duration limit = std::chrono::seconds(60));
 
-// The lines on the wire from `first` on that begin with `prefix`.
+// Counts the lines sent from index `first` on that begin with `prefix`.
 int written(World& world, std::string_view prefix, std::size_t first = 0);
-// HRT ZRT M A MP AP KP G and the like: what sets a motion or starts it.
+// Counts the lines that set or start a motion: HRT ZRT M A MP AP KP G and similar.
 int motion_lines(World& world, std::size_t first);
 
-// The lines from `first` on that set a prebuffer, in their order.
+// Returns the lines from index `first` on that set a prebuffer, in order.
 std::vector<std::string> prebuffer_lines(World& world, std::size_t first = 0);
 
-// Something else speaks to the device while the gateway's line is unplugged, which then comes back.
+// Sends lines from another program while the gateway's line is unplugged, and then plugs it in again.
 void foreign_traffic(World& world, const std::vector<std::string>& lines);
 
-// Drops the first line of that kind that begins with `prefix`; for a reply, `prefix` is the command's that it answers.
+// Drops the first line of a kind that begins with `prefix`. A reply is chosen by the command that it answers.
 Script drop_first(World& world, LineKind kind, std::string prefix);
 
 }  // namespace axisgate::simulation

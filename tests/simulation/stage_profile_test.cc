@@ -1,4 +1,5 @@
-// The stage of an axis's profile, and another one: what a pulse is by the controller (manual 10) ?:P, 55) S:) decides.
+// Tests of the stage in an axis's profile when another stage is connected. The controller decides the resolution
+// (manual 10) ?:P, 55) S:).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ Setup with_pulse_of(std::int64_t nanometers) {
 
 class StageOfProfile : public testing::Test {
  protected:
-  // What came of a request to a world whose axis 1 has another stage: refused at once.
+  // Returns the reason of a request's refusal by a world whose axis 1 has another stage.
   Reason refused(const std::function<void(Controller::OnStarted)>& ask) {
     std::optional<Reason> reason;
     ask([&reason](const Result<Motion>& motion) { reason = motion ? Reason::unspecified : motion.error().reason; });

@@ -1,4 +1,5 @@
-// One seed from its first byte to rest: what the ordinary seeds, the guards' proofs and axisgate-explore all run.
+// One seed from its first byte until everything is stationary. The ordinary seeds, the tests of guards and
+// axisgate-explore all run trials.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,13 @@ struct Trial {
   std::uint64_t seed = 0;
   Faults faults = Faults::hostile();
   Duration duration = std::chrono::minutes(10);
-  Habits habits = {};                   // of the callers
-  std::set<std::uint64_t> spared = {};  // faults that do not strike, by number
+  Habits habits = {};                   // habits of the callers
+  std::set<std::uint64_t> spared = {};  // numbers of the faults that do not strike
 };
 
 struct TrialResult {
-  std::optional<std::string> violation;  // nothing: all held
-  std::string replay;                    // of a violation
+  std::optional<std::string> violation;  // nullopt if there was no violation
+  std::string replay;                    // replay of the violation
   Duration virtual_time{};
   std::uint64_t exchanges = 0, barriers = 0, faults_drawn = 0;
   std::uint64_t digest = 0;  // digest.h
@@ -31,8 +32,8 @@ struct TrialResult {
 
 TrialResult run(const Trial& trial);
 
-// The same violation, or another, with as few faults as can be found by leaving out halves, quarters and so on. Runs at
-// most `runs_max` trials.
+// Returns a trial with the same or another violation and as few faults as leaving out halves, quarters and so on can
+// find. Runs at most `runs_max` trials.
 Trial shrunk(Trial failing, int runs_max);
 
 }  // namespace axisgate::simulation

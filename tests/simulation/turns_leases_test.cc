@@ -1,4 +1,5 @@
-// One moves without a lease and without a pause. Those who ask, and those who wait for a lease, have their turns.
+// Tests of a caller who moves without a lease and without a pause: callers with questions, and callers who wait for a
+// lease, get their turns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,16 +21,16 @@ using server::LeaseToken;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr std::int64_t kWay = 20'000, kWayUnderLease = 10'000;  // a second, half a second
+constexpr std::int64_t kWay = 20'000, kWayUnderLease = 10'000;  // take 1 s and 0.5 s
 constexpr std::array<const char*, 4> kRareQuestions = {"?:AXIS", "?:BEEP", "I:", "Q:"};
-constexpr int kAskers = 16;  // of each question
+constexpr int kAskers = 16;  // for each question
 constexpr Duration kLongest = seconds(5);
 
 class TurnsAmidMotions : public testing::Test {
  protected:
   TurnsAmidMotions() { EXPECT_TRUE(world_.run_until_up()) << world_.replay(); }
 
-  // The next begins when the one before has ended, or was refused since somebody waits for a lease.
+  // Starts the next motion when the previous one has ended, or was refused because a caller waits for a lease.
   void move_without_a_pause() {
     MoveRequest request = move_of(world_, {{1, forward_ ? kWay : -kWay}}, true);
     request.context = world_.context("mover", seconds(20));
@@ -51,7 +52,7 @@ class TurnsAmidMotions : public testing::Test {
                                 });
   }
 
-  // Moves once under it, and again so long after that has started.
+  // Acquires a lease and moves once under it; acquires the next one `pause` after the lease was granted.
   void lease_again_and_again(const std::string& who, Duration pause) {
     const TimePoint asked = world_.now();
     leases_.acquire({.axes = kOne}, who, true, asked + seconds(20), asked,
@@ -63,7 +64,7 @@ class TurnsAmidMotions : public testing::Test {
                     });
   }
 
-  // The axes are free when the motion has ended.
+  // Moves and then releases the lease. The axes are free when the motion has ended.
   void move_and_release(const std::string& who, LeaseToken token) {
     MoveRequest request = move_of(world_, {{1, kWayUnderLease}}, true);
     request.context = world_.context(who, seconds(20));

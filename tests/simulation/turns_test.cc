@@ -1,4 +1,4 @@
-// Who waits while others follow one another without a pause has a turn, too.
+// Tests that a waiting caller gets a turn while others follow one another without a pause.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
-// What was requested of the world, and what came of it.
+// Result of a request to the world.
 struct Answered {
   std::optional<TimePoint> at;
   std::string answer;
@@ -64,7 +64,7 @@ class Turns : public testing::Test {
   }
   World& world() { return *world_; }
 
-  // Until `done`: each of the axes has a motion of "busy" that moves it, and one that waits for that.
+  // Keeps axes busy until `done`: each axis has a motion of "busy" that moves it, and another that waits for the first.
   bool busy_until(const AxisSet axes, const std::function<bool()>& done, Duration limit) {
     const TimePoint until = world().now() + limit;
     while (!done() && world().now() < until) {
@@ -75,7 +75,7 @@ class Turns : public testing::Test {
     }
     return done();
   }
-  // Until a motion that could begin waits for the question.
+  // Returns once a motion that could begin waits for the question.
   AnsweredPtr ask_and_keep_motions_out() {
     busy_until(
         AxisSet::of(1), [] { return false; }, milliseconds(300));
@@ -102,7 +102,8 @@ class Turns : public testing::Test {
   std::optional<World> world_;
 };
 
-// It waits for two seconds, for the motion that runs then, and until no number of that can come any more.
+// The question waits for two seconds, then for the end of the running motion, and until no completion of that motion is
+// outstanding.
 TEST_F(Turns, AQuestionAmidMotionsWithoutAPause) {
   begin();
   const TimePoint asked = world().now() + milliseconds(300);
@@ -123,7 +124,8 @@ TEST_F(Turns, AQuestionAmidMotionsWithoutAPause) {
   for (const Motion& motion : world().outcomes()) EXPECT_EQ(motion.state, MotionState::succeeded);
 }
 
-// One moves without a pause, a second at a time; sixteen ask each of these again as soon as they have their answer.
+// A caller moves without a pause, a second at a time. Sixteen callers ask each question again as soon as they have
+// their answer.
 TEST_F(Turns, SixteenAskersOfEachQuestionAmidMotionsWithoutAPause) {
   constexpr std::array<const char*, 4> kQuestions = {"?:AXIS", "?:BEEP", "I:", "Q:"};
   begin();
@@ -230,7 +232,8 @@ TEST_F(Turns, TheGatewaysEndDoesNotWaitForOne) {
   EXPECT_EQ(answered->problem->reason, Reason::not_sent);
 }
 
-// Nothing can settle while axis 3 is on its way for a minute; the motions of the others wait for a few seconds at most.
+// No question can be answered safely while axis 3 moves for a minute. Motions of the other axes wait for a few seconds
+// at most.
 TEST_F(Turns, AQuestionThatCannotBeAnsweredSoonHoldsOthersUpForAWhileOnly) {
   begin(Scope::axis);
   move_for(world(), "slow", {{3, 3'000'000}});

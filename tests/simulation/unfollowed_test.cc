@@ -1,4 +1,5 @@
-// A move whose state nobody follows costs the line its setter, its start and one question, and still ends in time.
+// Tests of a move whose state no caller follows: it costs its setting, its start and one question on the line, and
+// still ends in time.
 #include <gtest/gtest.h>
 
 #include "tests/simulation/scenario.h"
@@ -19,7 +20,7 @@ Setup unfollowed() {
 int questions_of_a_move(const Setup& setup) {
   World world(setup);
   EXPECT_TRUE(world.run_until_up()) << world.replay();
-  for (int i = 0; i < 8; ++i) moved(world, {{1, 1000}});  // the unit's lag is known from now on
+  for (int i = 0; i < 8; ++i) moved(world, {{1, 1000}});  // measures the unit's lag
   const std::size_t first = world.wire().commands().size();
   moved(world, {{1, 45'100}});
   return written(world, "Q:SPC", first);

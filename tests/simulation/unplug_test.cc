@@ -1,4 +1,4 @@
-// Hazard 31, at every moment: a line that is lost while something moves leaves MOVING_UNKNOWN behind, never idle.
+// Hazard 31 at every moment: a line that is lost while an axis moves results in MOVING_UNKNOWN, never in idle.
 #include <gtest/gtest.h>
 
 #include "tests/simulation/scenario.h"
@@ -18,10 +18,10 @@ void expect_moving_unknown(World& world, Duration offset) {
       << world.replay();
 }
 
-// Unplugs `offset` after `start`; whether the device moved then.
+// Unplugs the cable `offset` after `start`. Reports whether the device moved at that time.
 bool unplugged_in_motion(World& world, const std::function<void(World&)>& start, Duration offset) {
   EXPECT_TRUE(world.run_until_up()) << world.replay();
-  moved(world, {{1, 100}});  // the first one reads the registers
+  moved(world, {{1, 100}});  // the first move reads the registers
   start(world);
   world.run_for(offset);
   const bool moved = world.device().busy(1);
@@ -32,7 +32,7 @@ bool unplugged_in_motion(World& world, const std::function<void(World&)>& start,
 
 class HazardH31 : public testing::Test {
  protected:
-  // From the request on, through the acknowledgement of the start, into the motion.
+  // Unplugs at moments from the request on, through the acknowledgement of the start, into the motion.
   void sweep(const std::function<void(World&)>& start) {
     int in_motion = 0;
     for (Duration offset{}; offset < milliseconds(100) && !HasFailure(); offset += microseconds(300)) {
@@ -69,7 +69,7 @@ TEST_F(HazardH31, APath) {
   });
 }
 
-// The motion of before has its outcome, UNKNOWN, and belongs to nobody any more; what it moves still moves.
+// The earlier motion has its outcome, UNKNOWN, but its axis still moves.
 TEST_F(HazardH31, AgainBeforeTheMotionOfBeforeHasEnded) {
   World world(quiet());
   EXPECT_TRUE(unplugged_in_motion(
@@ -89,7 +89,7 @@ TEST_F(HazardH31, AgainBeforeTheMotionOfBeforeHasEnded) {
   EXPECT_FALSE(world.controller().state().moving_unknown);
 }
 
-// Nobody here started it: it was seen to move.
+// The gateway did not start the motion, but saw the axis move.
 TEST_F(HazardH31, AMotionOfSomebodyElse) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

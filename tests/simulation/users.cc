@@ -15,7 +15,7 @@ using server::LeaseToken;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr int kAdmins = 2;  // the first ones
+constexpr int kAdmins = 2;  // the first two users
 
 Setup setup_of(std::uint64_t seed, const Faults& faults, Permission& permission) {
   Setup setup = drawn_setup(seed, faults);
@@ -87,7 +87,7 @@ void Users::act(User& user) {
   }
 }
 
-// Mostly the one that it has, sometimes an old one or none.
+// Returns mostly the user's token, sometimes an old token or none.
 LeaseToken Users::drawn_token(const User& user) {
   auto& random = world_.random();
   if (!user.stale.empty() && random.chance(0.2)) return random.pick(user.stale);
@@ -186,7 +186,7 @@ void Users::disconnect(User& user) {
   user.stale.push_back(std::exchange(user.token, 0));
 }
 
-// Everything is forgotten; half of the crashes are seen as a broken connection.
+// Crashes a user, who forgets the lease. Half of the crashes are seen as a broken connection.
 void Users::crash(User& user) {
   if (user.token == 0) return;
   Grant& grant = grants_.at(user.token);
@@ -237,7 +237,7 @@ void Users::jog(User& user, LeaseToken token) {
   if (user.jog != 0) renewed_[user.jog] = world_.now();
 }
 
-// Settings that outlive their user, under a lease only: what is set without one is meant to stay.
+// Changes settings that outlive their user, only under a lease: a setting made without a lease is meant to stay.
 void Users::execute(User& user, LeaseToken token) {
   auto& random = world_.random();
   const bool leased = token != 0 && grants_.contains(token);
@@ -258,7 +258,7 @@ void Users::execute(User& user, LeaseToken token) {
   });
 }
 
-// Most of the time somebody who jogs keeps at it, if not always in time; some let go, some are never heard of again.
+// Renews jogs. Most users renew theirs, if not always in time; a few end the jog, a few fall silent.
 void Users::keep_jogs() {
   auto& random = world_.random();
   for (User& user : users_) {
@@ -302,7 +302,7 @@ void Users::rearm(User& user) {
   }
 }
 
-// The first epoch ends none: it is the first handshake.
+// Reports whether a grant is in force. The first epoch ends no grant, because it is that of the first handshake.
 bool Users::owned(const Grant& grant) {
   const auto epoch = world_.controller().state().device_epoch;
   return !grant.over && world_.now() < grant.valid_until && (grant.epoch == epoch || grant.epoch + epoch == 1);

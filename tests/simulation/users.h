@@ -1,5 +1,6 @@
 // Twenty people and scripts who share one stage under leases: they crash, pause, come back with stale tokens, overlap,
-// take over and stop one another. A ledger of its own, which knows nothing of server/access, says who may move what.
+// take over and stop one another. A separate ledger, which knows nothing of server/access, decides who may move which
+// axes.
 #pragma once
 
 #include <map>
@@ -15,7 +16,7 @@ namespace axisgate::simulation {
 class Users {
  public:
   static constexpr int kUsers = 20;
-  static constexpr std::int64_t kTravel = 20'000;  // pulses, either way
+  static constexpr std::int64_t kTravel = 20'000;  // pulses, in either direction
 
   Users(std::uint64_t seed, const Faults& faults);
 
@@ -34,9 +35,9 @@ class Users {
     server::LeaseToken token = 0;
     std::vector<server::LeaseToken> stale;
     TimePoint paused_until{};
-    stage::MotionId jog = 0;  // that it keeps going
+    stage::MotionId jog = 0;  // the jog that the user renews
   };
-  // What was granted, as the ledger has it.
+  // A granted lease in the ledger.
   struct Grant {
     std::string who;
     stage::AxisSet axes;
@@ -44,9 +45,9 @@ class Users {
     TimePoint valid_until{};
     server::AtLoss at_loss = server::AtLoss::stop;
     stage::AxisSet latched;
-    stage::AxisSet latched_by_others;  // of these, what outlives the lease
-    bool sped = false;                 // it has set speeds of its own
-    bool wired = false;                // ... outputs or a trigger
+    stage::AxisSet latched_by_others;  // latched axes whose latch outlives the lease
+    bool sped = false;                 // the holder has set speeds
+    bool wired = false;                // the holder has set outputs or a trigger
     bool over = false;                 // released, handed over or taken over
     std::uint64_t epoch = 0;
   };
@@ -83,9 +84,9 @@ class Users {
   std::vector<User> users_;
   std::map<server::LeaseToken, Grant> grants_;
   std::map<std::string, stage::AxisSet> held_back_;
-  std::map<stage::MotionId, server::LeaseToken> leases_of_;  // under which they were requested
+  std::map<stage::MotionId, server::LeaseToken> leases_of_;  // lease under which each motion was requested
   server::LeaseToken asking_ = 0;
-  std::map<stage::MotionId, TimePoint> renewed_;  // jogs, when last
+  std::map<stage::MotionId, TimePoint> renewed_;  // last renewal of each jog
   Counts counts_;
 };
 

@@ -1,4 +1,4 @@
-// What must hold whatever the users do, looked at with every line that goes out.
+// Checks of the users at every line sent.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 bool moves_something(const std::string& line) { return sets_motion(line) || starts_motion(line); }
 
-// Of a motion's line: the letter behind the colon.
+// Returns the axes of a motion's line, from the letter after the colon.
 AxisSet axes_of(const std::string& line) {
   const auto colon = line.find(':');
   const auto axes = from_command_letter(line[colon + 1], AxisSet::all());
@@ -25,7 +25,8 @@ AxisSet axes_of(const std::string& line) {
 
 }  // namespace
 
-// Every line that sets or starts a motion is its owner's, or nobody owns the axes; and nobody holds its author back.
+// Checks that every line that sets or starts a motion is from the owner of its axes, or that they have no owner; and
+// that its author is not latched.
 void Users::check_bytes(const BytesWritten& written) {
   check_speeds(written);
   check_outputs(written);
@@ -47,8 +48,8 @@ void Users::check_bytes(const BytesWritten& written) {
   }
 }
 
-// A caller who moves at the controller's own speeds finds those that were there before, unless the same caller has set
-// others. A damaged bit of a line may have set others, and so may a damaged value that was read.
+// Checks that a caller who moves at the controller's own speeds finds the earlier speeds, unless the same caller has
+// set others. A damaged bit of a line may have set others, and so may a damaged value that was read.
 void Users::check_speeds(const BytesWritten& written) {
   if (world_.wire().damaged_since(TimePoint{})) return;
   const bool sets_speed = written.bytes.find("F4000R50") != std::string::npos;
@@ -67,7 +68,7 @@ void Users::check_speeds(const BytesWritten& written) {
   }
 }
 
-// The same of outputs and the trigger, which only who has the whole controller sets here.
+// Checks the same for outputs and the trigger, which only a holder of the whole controller sets here.
 void Users::check_outputs(const BytesWritten& written) {
   if (world_.wire().damaged_since(TimePoint{})) return;
   const bool sets = written.bytes.starts_with("O:") || written.bytes.starts_with("T:");
@@ -84,7 +85,8 @@ void Users::check_outputs(const BytesWritten& written) {
                                world_.device().outputs(), world_.device().trigger()));
 }
 
-// The jog of a caller who stops renewing it is stopped within the limit; one time step of the simulation is allowed.
+// Checks that a jog is stopped within the limit if its caller stops renewing it; one time step of the simulation is
+// allowed.
 void Users::check_jogs() {
   for (const Motion& motion : world_.controller().motions()) {
     const auto renewed = renewed_.find(motion.id);
@@ -95,7 +97,7 @@ void Users::check_jogs() {
   }
 }
 
-// A bit that is wrong may send an axis anywhere.
+// Checks the travel, unless a command was damaged: a wrong bit may move an axis anywhere.
 void Users::check_travel() {
   if (world_.wire().commands_damaged() > 0) return;
   for (int axis = 1; axis <= kAxisCount; ++axis) {

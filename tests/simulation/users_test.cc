@@ -35,14 +35,15 @@ TEST_P(UserSeeds, NobodyMovesWhatAnotherOwns) {
 
 INSTANTIATE_TEST_SUITE_P(Ordinary, UserSeeds, testing::Range(0, kUserSeeds / kUserSeedsACase));
 
-// A jog that was sped up too near to its bound, or stopped too late before it where an answer was lost.
+// Seeds in which a jog was accelerated too near to its bound, or was stopped too late before it when an answer was
+// lost.
 class UserSeedsThatOnceFailed : public testing::TestWithParam<int> {};
 
 TEST_P(UserSeedsThatOnceFailed, StayMended) { hold(static_cast<std::uint64_t>(GetParam())); }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, UserSeedsThatOnceFailed, testing::Values(3733, 4414, 9798, 10559));
 
-// So that the seeds above show something: all that can happen to a lease does.
+// Ensures that the seeds above test something: every event that a lease can have occurs.
 TEST(UserSeedsShow, EverythingHappens) {
   Users::Counts sum;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {

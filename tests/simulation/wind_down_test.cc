@@ -1,4 +1,4 @@
-// The gateway's end: every request is refused, withdrawn, stopped or finished, and the line is left clean.
+// Tests of the gateway's end: every request is refused, withdrawn, stopped or finished, and the line is left clean.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// The end under way.
+// The gateway's end in progress.
 class Ending {
  public:
   explicit Ending(World& world) : world_(world), report_(std::make_shared<std::optional<WindDownReport>>()) {
@@ -133,7 +133,7 @@ TEST(WindDown, FinishHasALimitAndStopsThen) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// Whatever the policy: a motion that has not started never will, at any instant of set and go.
+// Under every policy, a motion that has not started never starts, at any instant of set and go.
 TEST(WindDown, NothingStartsAfterItHasBegun) {
   for (const AtExit policy : {AtExit::stop, AtExit::finish}) {
     for (Duration offset{}; offset < milliseconds(80) && !HasFailure(); offset += microseconds(410)) {
@@ -212,7 +212,7 @@ TEST(WindDown, ADeadLineDoesNotHoldTheEndUp) {
   }
 }
 
-// The line is lost in mid-move and opened for the stop's sake; closing it again drops what has not gone out yet.
+// The line is lost in mid-move and reopened for the stop. Closing it again discards bytes that have not been sent yet.
 TEST(WindDown, AStopThatNobodyAnswersStillGoesOut) {
   auto setup = quiet();
   setup.baud = setup.profile.baud = 1200;
@@ -265,7 +265,7 @@ TEST(WindDown, SpeedsChangedForAMotionAreTheOldOnesAgain) {
     move.moves[0].profile = SpeedProfile{pulses(500), pulses(7000), 70};
     world.controller().move(std::move(move), world.now(), [](Result<Motion>) {});
     world.run_for(milliseconds(400));
-    // Somebody asks without end, so that the old speeds have to wait for their turn.
+    // A caller asks without end, so that the restore of the old speeds waits for its turn.
     world.controller().execute({std::vector<std::string>(100, "?:D1"), world.context("asker")}, world.now(),
                                [](const ExecuteEvent&) {});
     Ending ending(world);
@@ -274,7 +274,7 @@ TEST(WindDown, SpeedsChangedForAMotionAreTheOldOnesAgain) {
   }
 }
 
-// At any instant of a busy day on a bad line, under every reading of the manual.
+// The gateway ends at any instant of busy use on a bad line, under every interpretation of the manual.
 class WindDownSeeds : public testing::TestWithParam<AtExit> {};
 
 TEST_P(WindDownSeeds, NothingStartsAndEveryMotionHasItsOutcome) {

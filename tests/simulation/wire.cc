@@ -82,7 +82,7 @@ void Wire::open(TimePoint now) {
   now_ = now;
   open_ = true;
   opens_at_.reset();
-  device_mid_line_ = false;  // the simulator forgets half a line then
+  device_mid_line_ = false;  // the simulator then discards an incomplete line
   device_->link_up(now);
   gateway_->link_up(now);
 }
@@ -147,7 +147,7 @@ void Wire::pass_bytes(TimePoint now) {
   std::vector<Delivery> parts;
   for (auto& [at, delivery] : in_transit_) {
     const auto left = static_cast<std::size_t>((at - now + byte_time_ - Duration(1)) / byte_time_);
-    // A line is whole only with all that belongs to it: two copies of one come together.
+    // A line is whole only with all its bytes: two copies of a line arrive together.
     const std::size_t whole = std::min(delivery.bytes.size(), delivery.bytes.find(kEndOfLine));
     if (left >= delivery.bytes.size() || whole == 0) continue;
     const std::size_t come = std::min(delivery.bytes.size() - left, whole);
@@ -159,7 +159,7 @@ void Wire::pass_bytes(TimePoint now) {
   for (const Delivery& part : parts) deliver(part, now);
 }
 
-// One write is one line: the gateway never writes less or more.
+// Takes one write, which is one line: the gateway never writes less or more.
 void Wire::from_gateway(std::string_view bytes) {
   std::string line(bytes.substr(0, bytes.find('\r')));
   commands_.push_back(line);
@@ -192,7 +192,7 @@ void Wire::from_device(std::string_view bytes) {
   }
 }
 
-// The device answers commands in order. One that a fault has cut in two is answered twice.
+// Takes a line of the device. It answers commands in order, and answers a command that a fault has cut in two twice.
 void Wire::device_line(std::string text) {
   Origin origin{Origin::Kind::notice, 0};
   if (device_answers_()) {
@@ -255,14 +255,14 @@ void Wire::make_noise() {
   to_gateway(burst + "\r\n", {Origin::Kind::noise, 0}, {});
 }
 
-// A late line holds up the ones behind it: bytes do not overtake on a wire.
+// Sends bytes to the gateway. A late line delays the lines after it: bytes do not overtake on a line.
 void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
   const Duration length = byte_time_ * static_cast<std::int64_t>(bytes.size());
   TimePoint at = std::max(to_gateway_free_, now_) + length + extra;
   to_gateway_free_ = at;
   if (bytes.size() > 4 && strikes(faults_.split, "line: split")) {
-    // Never between the two copies of a doubled line: one that comes after the next command cannot be distinguished
-    // from its answer.
+    // Never between the two copies of a doubled line: a copy received after the next command cannot be distinguished
+    // from that command's answer.
     const auto middle = bytes.size() / 2 + 1;
     transit(at, Delivery{false, bytes.substr(0, middle), origin, 0, damaging_});
     at += std::chrono::milliseconds(random_.between(1, 40));
@@ -293,7 +293,8 @@ void Wire::advance(TimePoint now) {
   }
 }
 
-// The device answers every line, but not an empty one: a flipped bit may have ended one before its first character.
+// Counts the lines to be answered. The device answers every line except an empty one; a flipped bit may have ended a
+// line before its first character.
 void Wire::expect_answers(const Delivery& delivery) {
   for (const char byte : delivery.bytes) {
     const bool end = kEndOfLine.find(byte) != std::string_view::npos;

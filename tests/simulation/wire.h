@@ -1,5 +1,5 @@
 // The line between the gateway and the simulated controller, in virtual time, with faults. Every line of the device
-// carries the number of the command that it answers, which the gateway does not see and the checks do.
+// carries the number of the command that it answers, which only the checks see.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace axisgate::simulation {
 
-// Probabilities a line, and for what befalls device and link an hour. Zero everywhere: a perfect line.
+// Probability of each fault per line, and the rate of mishaps of device and link per hour. All zero: a perfect line.
 struct Faults {
   double drop_command = 0;     // line: a command never arrives
   double flip_command = 0;     // line: one bit of a command is wrong
@@ -36,8 +36,8 @@ struct Faults {
   double double_notice = 0;
   double flood_notice = 0;  // notice: one number many times
   double flip_notice = 0;
-  double reorder_notice = 0;  // notice: overtakes the one before it
-  // line, of commands, replies and notices alike
+  double reorder_notice = 0;  // notice: overtakes the previous notice
+  // line; commands, replies and notices alike
   double lose_byte = 0;
   double double_byte = 0;
   double eight_bit = 0;        // one byte becomes a NUL or gets its top bit
@@ -48,11 +48,11 @@ struct Faults {
   static Faults mild();
   static Faults rough();
   static Faults hostile();
-  // "quiet", "mild", "rough", "hostile"; nothing for another name.
+  // Returns "quiet", "mild", "rough" or "hostile"; nullopt if there is no such profile.
   static std::optional<Faults> named(std::string_view profile);
 };
 
-// What was going on when a fault struck.
+// Phase of the run when a fault struck.
 enum class Phase { idle, set, acknowledged, started, moving, completing, barrier, path };
 inline constexpr std::array<std::string_view, 8> kPhaseNames = {"idle",   "set",        "acknowledged", "started",
                                                                 "moving", "completing", "barrier",      "path"};
@@ -60,15 +60,15 @@ inline std::string_view name(Phase phase) { return kPhaseNames[static_cast<std::
 
 struct Origin {
   enum class Kind { reply, notice, noise } kind = Kind::reply;
-  std::size_t command = 0;  // a reply's: the index of the command line that it answers
-  bool damaged = false;     // it is no longer the line that was sent
+  std::size_t command = 0;  // of a reply: the index of the command line that it answers
+  bool damaged = false;     // differs from the line that was sent
 };
 
-// A fault at one place instead of at random: what is done to one line.
+// A fault of one chosen line, instead of a random one.
 struct Scripted {
   bool drop = false;
-  Duration delay{};                    // of this line and those behind it; a notice waits alone
-  std::optional<std::string> instead;  // these bytes, terminator and all
+  Duration delay{};                    // of this line and the lines after it; a notice waits alone
+  std::optional<std::string> instead;  // these bytes, including the terminator
 };
 enum class LineKind { command, reply, notice };
 using Script = std::function<Scripted(LineKind, const std::string& line)>;
@@ -98,24 +98,27 @@ class Wire {
   void open(TimePoint now);
   std::optional<TimePoint> next_event() const;
   void advance(TimePoint now);
-  void cut(TimePoint now, Duration until_back);  // unplugged
-  // The daemon was killed: another one opens the line after `until_back`. Until then nobody reads. What was written and
-  // has not passed yet still goes out, or is lost with the old one.
+  void cut(TimePoint now, Duration until_back);  // unplugs the cable
+  // Kills the daemon: another daemon opens the line after `until_back`, and nobody reads until then. Bytes that were
+  // written and have not passed yet are still sent, or lost with the old daemon.
   void change_gateway(LineMachine& gateway, TimePoint now, Duration until_back, bool written_is_lost);
-  // Nothing passes in this direction for so long, not even the rest of a line.
+  // Blocks one direction for `time`, even the rest of a line.
   void hold_up(bool to_device, Duration time);
 
-  // To be called before something happens in the middle of a line: its bytes of until now have come.
+  // Delivers the bytes of the present line that have arrived by `now`. Call before something happens in the middle of a
+  // line.
   void pass_bytes(TimePoint now);
-  // Calls `alarm` with the time at which the `count`th byte from now passes, either way, as soon as that is known; with
-  // `of_set_and_go` counted from the next line on that sets a motion.
+  // Calls `alarm` with the time at which the `count`th byte from now passes in either direction, as soon as that time
+  // is known. With `of_set_and_go`, counts from the next line that sets a motion.
   void after_bytes(std::uint64_t count, bool of_set_and_go, std::function<void(TimePoint)> alarm);
 
-  // What the gateway wrote, oldest first, and what a delivered line was while it is being delivered.
+  // Lines that the gateway wrote, oldest first. delivering() is the origin of a line during its delivery; nullopt
+  // otherwise.
   const std::vector<std::string>& commands() const { return commands_; }
-  // The newest command, by the device; the reply may be under way.
+  // Reports whether the device has answered the newest command; the reply may still be in flight.
   bool answered() const { return last_answered_ && *last_answered_ + 1 == commands_.size(); }
-  // Whether what the device writes now answers a command, and whether it reads at all (it does not while it restarts).
+  // `answers` reports whether the device's present output answers a command, `reads` whether the device reads at all,
+  // which it does not during a restart.
   void set_device(std::function<bool()> answers, std::function<bool()> reads) {
     device_answers_ = std::move(answers);
     device_reads_ = std::move(reads);
@@ -129,13 +132,14 @@ class Wire {
   Digest& digest() { return digest_; }
   void note(TimePoint now, const std::string& text);
 
-  // Faults count from 0 in the order in which they would strike; those named here do not.
+  // Suppresses faults by number. Faults count from 0 in the order in which they would strike.
   void spare(std::set<std::uint64_t> faults) { spared_ = std::move(faults); }
   void set_phase(std::function<Phase()> phase) { phase_ = std::move(phase); }
-  // For a fault that another injects: counted, noted, or spared.
+  // Counts and notes a fault that another class injects. Returns false if the fault is suppressed.
   bool inject(const char* kind);
   std::uint64_t faults_drawn() const { return drawn_; }
-  // Commands that became others on their way, and whether any line, either way, came changed since then.
+  // Number of commands changed into others on the line, and whether any line in either direction was changed since
+  // `then`.
   int commands_damaged() const { return commands_damaged_; }
   bool damaged_since(TimePoint then) const { return last_damage_ && *last_damage_ >= then; }
   using ByPhase = std::array<std::uint64_t, kPhaseNames.size()>;
@@ -180,7 +184,7 @@ class Wire {
   std::string_view end_of_line();
 
   Random& random_;
-  Random damage_random_;  // its own, so that what was drawn before these faults were thought of is still drawn
+  Random damage_random_;  // a separate sequence, so that draws from before these faults stay the same
   Duration byte_time_;
   Faults faults_;
   Script script_;
@@ -194,7 +198,7 @@ class Wire {
   std::optional<TimePoint> opens_at_;
   TimePoint to_device_free_{}, to_gateway_free_{};
   std::multimap<TimePoint, Delivery> in_transit_;
-  std::multimap<TimePoint, Delivery> held_notices_;  // that the device is slow to send
+  std::multimap<TimePoint, Delivery> held_notices_;  // notices that the device sends late
   std::uint64_t alarm_bytes_ = 0;
   bool alarm_awaits_set_ = false;
   std::function<void(TimePoint)> alarm_;
@@ -206,8 +210,8 @@ class Wire {
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;
   Digest digest_;
-  bool damaging_ = false;        // the line that is being sent is no longer what it was
-  bool unended_damage_ = false;  // the line that comes next to the gateway continues a damaged one
+  bool damaging_ = false;        // the line being sent is damaged
+  bool unended_damage_ = false;  // the next line to the gateway continues a damaged one
   int commands_damaged_ = 0;
   std::optional<TimePoint> last_damage_;
   std::uint64_t drawn_ = 0;

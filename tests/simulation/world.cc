@@ -14,7 +14,7 @@ namespace {
 
 constexpr Duration kRecent = std::chrono::seconds(1);
 constexpr Duration kSwapSilence = std::chrono::milliseconds(200);
-// Drawn last: seeds in which something was found before these options came stay what they were.
+// Options drawn last, so that seeds from before these options stay the same.
 constexpr std::array<std::string_view, 1> kDrawnLater = {"jog_override_afterwards"};
 
 }  // namespace
@@ -32,13 +32,13 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
     }
   };
   draw(false);
-  // The gateway knows only what a lab would have found out; else it assumes the stricter interpretation.
+  // The gateway knows only facts that a lab would have found out; otherwise it assumes the stricter interpretation.
   if (setup.options.is("busy_scope", "axis") && random.chance(0.5)) setup.profile.busy_scope = Scope::axis;
   if (setup.options.is("prebuffer_scope", "axis") && random.chance(0.5)) setup.profile.prebuffer_scope = Scope::axis;
   setup.baud = random.pick(std::vector<int>{9600, 38400, 115200});
   setup.profile.baud = setup.baud;
   draw(true);
-  setup.followed = seed % 4 != 2;  // not drawn, so that the seeds of before stay what they are
+  setup.followed = seed % 4 != 2;  // not drawn, so that earlier seeds stay the same
   return setup;
 }
 
@@ -71,8 +71,8 @@ std::string World::replay() const {
   return text;
 }
 
-// Verdict by what was last written, what the device does and what the controller says of its line. A setting or a start
-// under way counts more than another axis that moves.
+// Determines the phase from the last line written, the device's activity and the controller's link state. A setting or
+// a start in progress takes precedence over another axis that moves.
 Phase World::phase() const {
   if (controller_->state().link != LinkState::up) return Phase::barrier;
   bool moves = false, runs = false;
@@ -152,7 +152,7 @@ void World::digest(const Motion& motion) {
   for (const auto& result : motion.results) digest.add(static_cast<std::uint64_t>(result.command_pulses.value_or(-1)));
 }
 
-// Whatever answered an exchange must have been written by the device in answer to that very command.
+// Checks that the answer to an exchange was written by the device in answer to that very command.
 void World::check_exchange(const ExchangeEnded& ended) {
   ++exchanges_;
   written_when_last_ended_ = wire_.commands().size();
@@ -162,11 +162,11 @@ void World::check_exchange(const ExchangeEnded& ended) {
   const auto& origin = wire_.delivering();
   if (!origin) return violation(fmt::format("{} was answered while nothing was delivered", ended.line));
   if (origin->kind != Origin::Kind::reply) {
-    if (origin->damaged) return;  // one flipped bit makes another number of it; nobody can tell
+    if (origin->damaged) return;  // one flipped bit changes it into another number, which cannot be detected
     return violation(fmt::format("{} took \"{}\" for its reply, which was none", ended.line, ended.reply));
   }
   if (ended.closed) {
-    // What came before the !:S is judged by the answer that the caller gets.
+    // Replies before the !:S are judged by the caller's answer.
     if (wire_.commands()[origin->command] != "!:S") violation(ended.line + " was closed by no !:S");
     return;
   }
@@ -217,27 +217,27 @@ void World::return_of_the_unit(Duration unplugged_for) {
 
 bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + restart_lasts_; }
 
-// The line that is just coming was written before the restart.
+// Reports whether the line being delivered was written before the restart.
 bool World::told_before_restart() const {
   return rebooted_ && wire_.delivering() && wire_.delivering()->command < written_before_reboot_;
 }
 
-// Where the axis was when the device reported it.
+// Returns the position of the axis when the device reported it.
 std::int64_t World::told_position(int axis) const {
   const bool then = restarting() || told_before_restart();
   return then ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
 }
 
-// A success is a place where the device truly is, in the frame of the time when it was requested.
+// Checks that a successful motion ended where the device truly is, in the frame at the time of the request.
 void World::check_outcome(const Motion& motion) {
   if (motion.state != MotionState::succeeded) return;
-  // From 0 to 0 the frame is the same.
+  // With all axes at 0 the restart does not change the frame.
   const bool shifted = std::ranges::any_of(before_reboot_, [](std::int64_t place) { return place != 0; });
   if (rebooted_ && shifted && motion.created < *rebooted_ && !told_before_restart()) {
     violation(fmt::format("motion {} succeeded, but the device has restarted since it was asked for", motion.id));
   }
   for (const auto& result : motion.results) {
-    // A jog has no target, but reports where it ended.
+    // A jog has no target, but reports its final place.
     const auto place = motion.kind == MotionKind::jog ? result.command_pulses : result.target_pulses;
     if (!place) {
       violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));
@@ -245,7 +245,7 @@ void World::check_outcome(const Motion& motion) {
       violation(fmt::format("motion {} succeeded, but axis {} stands at {} instead of {}", motion.id, result.axis,
                             told_position(result.axis), *place));
     } else if (device_->busy(result.axis) && !wire_.damaged_since(now_ - kRecent)) {
-      // One flipped bit makes an R of the B of an axis that settles at its target.
+      // One flipped bit changes the B of an axis that settles at its target into an R.
       violation(fmt::format("motion {} succeeded, but axis {} is still busy", motion.id, result.axis));
     }
   }

@@ -1,5 +1,5 @@
-// The real controller core against the simulator, in virtual time, with callers who ask for this and that. Everything
-// follows from one seed; what must hold is checked as it happens.
+// The real controller core against the simulator, in virtual time, with callers who request various things. Everything
+// follows from one seed, and all requirements are checked during the run.
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ struct Setup {
   shrc203::Profile profile;
   shrc203::simulator::Options options;
   stage::EventSink* listener = nullptr;     // receives every event too
-  stage::Permission* permission = nullptr;  // none: everybody may
-  bool followed = true;                     // else moves are seldom looked at on their way
-  bool callers_send_bare_go = false;        // else a bare G is taken for a fault of the gateway's own
+  stage::Permission* permission = nullptr;  // null: everybody may do everything
+  bool followed = true;                     // false: the state of moves is rarely read while they run
+  bool callers_send_bare_go = false;        // false: a bare G is taken for a fault of the gateway
 };
 
-// A setup whose open questions are drawn from the seed.
+// Returns a setup whose interpretations of the manual are drawn from the seed.
 Setup drawn_setup(std::uint64_t seed, const Faults& faults);
 
 class World : public stage::EventSink {
@@ -44,25 +44,26 @@ class World : public stage::EventSink {
   TimePoint now() const { return now_; }
 
   void run_for(Duration duration);
-  // Runs until `done` holds; false when `limit` passed first.
+  // Runs until `done` holds. Returns false if `limit` passes first.
   bool run_until(const std::function<bool()>& done, Duration limit);
   bool run_until_up() {
     return run_until([this] { return controller_->state().link == stage::LinkState::up; }, std::chrono::seconds(60));
   }
-  // The host sleeps: time has passed, and what came meanwhile comes first.
+  // Lets the host sleep: time passes, and bytes received meanwhile are handled first.
   void sleep_for(Duration duration) { now_ += duration; }
-  // Runs the function at that time, in the middle of whatever happens then, even of a line.
+  // Runs the function at `when`, in the middle of any other event, even of a line.
   void at(TimePoint when, std::function<void()> deed) { operations_.emplace(when, std::move(deed)); }
-  void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last
-  // The cable is pulled and put into another unit, and back at its return. While it visits, only its identity may be
-  // asked, and only a stop may be sent.
+  // Restarts the device. `silence` is the duration of its boot.
+  void power_cycle(Duration silence = std::chrono::seconds(1));
+  // Pulls the cable and puts it into another unit, and back at the return. During the visit only identity questions and
+  // stops may be sent.
   void visit_of_another_unit(const std::string& serial_number, Duration unplugged_for);
   void return_of_the_unit(Duration unplugged_for);
-  // The daemon is killed, and another one is started. To be called between two calls of the controller, as by at().
+  // Kills the daemon and starts another one. Must be called between two calls of the controller, for instance by at().
   struct Restart {
-    std::function<stage::Permission&()> start;                     // the other daemon, when the controller is gone
+    std::function<stage::Permission&()> start;  // starts the other daemon, once the controller is gone
     std::function<void(shrc203::Controller& controller)> prepare;  // before the line is opened
-    Duration away{};                                               // until it is
+    Duration away{};                                               // until the line is opened
     bool written_is_lost = false;                                  // Wire::change_gateway()
   };
   void restart_gateway(const Restart& restart);
@@ -72,10 +73,10 @@ class World : public stage::EventSink {
     return {std::move(who), "", now_ + limit};
   }
 
-  // What was wrong, with its time; empty when nothing was. The first stops the run.
+  // Violations with their times; empty if there were none. The first one stops the run.
   const std::vector<std::string>& violations() const { return violations_; }
   void violation(const std::string& what);
-  std::string replay() const;  // how to see a failure again
+  std::string replay() const;  // text to reproduce a failure
   Phase phase() const;
 
   void on_event(const stage::Event& event, TimePoint now) override;
@@ -86,9 +87,9 @@ class World : public stage::EventSink {
   std::uint64_t exchanges() const { return exchanges_; }
   std::uint64_t barriers() const { return barriers_; }
 
-  // Called with each motion event, to watch more than the world itself does.
+  // Called with each motion event, for checks beyond those of the world.
   std::function<void(const stage::Motion&)> on_motion;
-  // The same of every event.
+  // Called with every event.
   std::function<void(const stage::Event&)> on_news;
 
  private:
@@ -112,8 +113,8 @@ class World : public stage::EventSink {
   std::array<std::int64_t, stage::kAxisCount> before_reboot_{};
   TimePoint now_{};
   std::multimap<TimePoint, std::function<void()>> operations_;
-  std::size_t written_when_last_ended_ = 0;  // commands, when an exchange last ended
-  std::size_t written_before_visit_ = 0;     // commands, when another unit came
+  std::size_t written_when_last_ended_ = 0;  // number of commands when an exchange last ended
+  std::size_t written_before_visit_ = 0;     // number of commands when another unit was connected
   int steps_here_ = 0;
   std::vector<std::string> violations_;
   std::vector<stage::Motion> outcomes_;

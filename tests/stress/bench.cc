@@ -69,7 +69,7 @@ server::Config Bench::config() const {
     auto& stage = std::get<server::StageConfig>(one.family);
     one.name = device_name(device);
     stage.profile.serial_number = serial_number(device);
-    // The simulator's axes do not keep each other waiting; one device makes use of it.
+    // The axes of the simulator move independently; one device uses that.
     if (device == 0) stage.kind_settings["busy_scope"] = "axis";
     one.baud = 4'000'000;
     stage.profile.idle_poll = milliseconds(20);
@@ -95,7 +95,7 @@ bool Bench::wait_until_link(std::size_t number, bool up) {
   const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
   while ((device(number).newest_state().get().value->link == stage::LinkState::up) != up) {
     if (monotonic_now() > limit) return false;
-    std::this_thread::sleep_for(milliseconds(1));  // between two looks; the limit above decides
+    std::this_thread::sleep_for(milliseconds(1));  // pause between two checks; the limit above decides
   }
   return true;
 }

@@ -1,4 +1,4 @@
-// A whole gateway below gRPC, and the devices that it serves at real pseudo terminals.
+// Complete gateway below gRPC, with simulated devices at real pseudo terminals.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace axisgate::stress {
 
 inline constexpr std::size_t kDevices = 3;
 
-// What the controllers answer: no two alike, so that an answer to another's question shows.
+// Properties of the controllers, all different, so that an answer to the question of another caller is detected.
 std::string device_name(std::size_t device);
 std::string serial_number(std::size_t device);
 std::string firmware(std::size_t device);
@@ -23,9 +23,9 @@ int maximum_speed(std::size_t device, int axis);
 
 class Bench {
  public:
-  // The gateway is made and not started; all units are plugged in.
+  // Creates the gateway without starting it, and plugs in all units.
   Bench();
-  // First the gateway ends, then the units.
+  // Ends the gateway first, then the units.
   ~Bench();
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
@@ -33,13 +33,13 @@ class Bench {
   server::Gateway& gateway() { return *gateway_; }
   server::Stage& device(std::size_t number) { return *gateway_->stages()[number]; }
   void end_gateway() { gateway_.reset(); }
-  // The file to which the gateway records the device's line.
+  // Returns the text that the gateway has recorded from the device's line.
   std::string recording(std::size_t device) const;
 
   void unplug(std::size_t device) { units_[device].reset(); }
   void plug(std::size_t device);
 
-  // Every wait has a limit that only a failing test reaches.
+  // Both functions wait with a limit that only a failing test reaches.
   [[nodiscard]] bool wait_until_link(std::size_t device, bool up);
   [[nodiscard]] bool wait_until_all_up();
 

@@ -32,14 +32,14 @@ KnownAnswer known_answer(std::size_t device, int which) {
 }
 constexpr int kKnownAnswers = 10;
 
-// What a line that comes and goes, full queues and other callers' stops may make of a request.
+// Expects a problem that a lost line, a full queue or another caller's stop can cause.
 void expect_excuse(const Problem& problem, const std::string& asked) {
   static const std::set<Reason> kExcuses = {
       Reason::link_down,        Reason::not_sent,       Reason::reply_timed_out, Reason::line_fault,
       Reason::axis_busy,        Reason::stopped,        Reason::deadline_passed, Reason::completion_outstanding,
       Reason::queue_full,       Reason::not_found,      Reason::outcome_unknown, Reason::target_not_reached,
       Reason::position_unknown, Reason::stale_setpoint, Reason::stopped_by,      Reason::stop_unconfirmed,
-      Reason::too_fast};  // a path, by a machine whose load makes each answer late
+      Reason::too_fast};  // a path, if the load of the machine makes every answer late
   EXPECT_TRUE(kExcuses.contains(problem.reason)) << asked << ": " << name(problem.reason) << ": " << problem.message;
 }
 
@@ -48,7 +48,7 @@ void expect_excuse(const Problem& problem, const std::string& asked) {
 void Caller::ask(int requests, std::size_t window) {
   for (int i = 0; i < requests; ++i) {
     const auto device = static_cast<std::size_t>(draw(0, kDevices - 1));
-    // One in eight does not care whether anybody is there.
+    // One request in eight is sent without waiting for the device to be up.
     if (draw(0, 7) != 0) {
       ASSERT_TRUE(bench_.wait_until_link(device, true)) << device_name(device) << " stays down";
     }
@@ -68,7 +68,7 @@ void Caller::flood(int requests) {
 }
 
 void Caller::request(std::size_t device) {
-  if (draw(0, 1) == 0) rearm(device);  // others stop what this one moves
+  if (draw(0, 1) == 0) rearm(device);  // other callers may have stopped the axes of this caller
   const int kind = draw(0, 99);
   if (kind < 45) return question(device);
   if (kind < 55) return transaction(device);
@@ -86,7 +86,8 @@ Caller::Ticket Caller::ticket(std::size_t device, const std::string& what) {
       fmt::format("caller {} to {}, request {}: {}", number_, device_name(device), ledger_.issued(), what));
 }
 
-// The request's id names it, so that a motion which came back to the wrong caller shows.
+// Returns a context whose request id names the request, so that a motion that is reported to the wrong caller is
+// detected.
 RequestContext Caller::context(const Ticket& ticket) const { return {name(), ticket->asked(), {}}; }
 
 void Caller::question(std::size_t device) {
@@ -116,7 +117,7 @@ void Caller::execute(std::size_t device, std::vector<std::string> lines, std::ve
       case ExecuteEvent::Kind::reply:
         ASSERT_LT(next, right.size()) << asked->asked() << ": " << event.answer;
         EXPECT_EQ(event.line, next) << asked->asked();
-        // A set or a start may be refused while somebody else's motion or stop is under way.
+        // A setting or a start may be refused while a motion or a stop of another caller is in progress.
         if (right[next] != "OK" || event.answer != "NG") {
           EXPECT_EQ(event.answer, right[next]) << asked->asked();
         }
@@ -176,7 +177,7 @@ void Caller::move(std::size_t device) {
   const auto asked = ticket(device, "a move");
   MoveRequest request;
   request.context = context(asked);
-  // A stop may leave the setting of either kind behind; the next of its kind overwrites it.
+  // A stop may leave a stale setpoint of either kind; the next setpoint of the same kind overwrites it.
   request.relative = draw(0, 1) == 0;
   request.moves.push_back({draw(1, kAxisCount), pulses(draw(-3000, 3000)), {}});
   bench_.device(device).post(

@@ -1,4 +1,4 @@
-// One of the threads that ask everything of every device at once.
+// Caller on one of the threads that send every kind of request to every device at once.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,16 +14,17 @@
 
 namespace axisgate::stress {
 
-// Every question has one right answer, which depends on the device and the axis. Instead of it only a problem of the
-// line or of the time may come; anything else is a test failure.
+// A Caller sends random requests and checks the answers. Every question has one right answer, which depends on the
+// device and the axis. The only other accepted result is a problem of the line, of time or of other callers; anything
+// else is a test failure.
 class Caller {
  public:
   Caller(Bench& bench, unsigned number) : bench_(bench), number_(number), random_(number) {}
 
-  // On a thread of its own. Before most requests it waits for the device to be up, and with `window` open requests for
-  // answers.
+  // Sends requests; runs on a separate thread. Waits for the device to be up before most requests, and for answers
+  // while `window` requests are open.
   void ask(int requests, std::size_t window);
-  // Without waiting for anything.
+  // Sends requests without waiting for anything.
   void flood(int requests);
 
   Ledger& ledger() { return ledger_; }

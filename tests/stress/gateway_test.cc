@@ -1,6 +1,6 @@
-// The gateway below gRPC under everything at once: eight threads ask, others read, cables are pulled, and it ends in
-// the midst of it. Bounded by counts, so that a slow machine or a sanitizer does the same work. Meant for
-// ThreadSanitizer, and true without it.
+// Stress tests of the gateway below gRPC: eight threads send requests, others read, cables are pulled, and the gateway
+// ends in the middle. The tests are bounded by counts, so that a slow machine or a sanitizer does the same work. They
+// are meant for ThreadSanitizer, but also useful without it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class GatewayStress : public testing::Test {
   GatewayStress() {
     for (unsigned number = 0; number < kCallers; ++number) callers_.push_back(std::make_unique<Caller>(bench_, number));
   }
-  // Callers outlive everything that may answer them.
+  // Ends the gateway first, because the callers must outlive all callbacks.
   ~GatewayStress() override { bench_.end_gateway(); }
 
   template <class Work>
@@ -49,12 +49,12 @@ class GatewayStress : public testing::Test {
     return count;
   }
 
-  // Waits until so many requests have been made.
+  // Waits until `count` requests have been made.
   void wait_until_issued(std::size_t count) {
     const TimePoint limit = monotonic_now() + std::chrono::minutes(2);
     while (issued() < count) {
       ASSERT_LT(monotonic_now(), limit) << issued() << " of " << count;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));  // between two looks
+      std::this_thread::sleep_for(std::chrono::microseconds(200));  // pause between two checks
     }
   }
 
@@ -79,13 +79,13 @@ class GatewayUnderLoad : public GatewayStress {
   static constexpr int kRequests = 200;
   static constexpr std::size_t kWindow = 6, kUnplugs = 12;
 
-  // In the middle of whatever is asked.
+  // Unplugs and plugs the devices in turn, in the middle of the requests.
   void pull_cables() {
     for (std::size_t unplug = 1; unplug <= kUnplugs; ++unplug) {
       wait_until_issued(unplug * kCallers * kRequests / (kUnplugs + 1));
       const std::size_t device = unplug % kDevices;
       bench_.unplug(device);
-      // Every second time the cable is back before anybody may have looked.
+      // Every second time the cable is back before the gateway may have noticed.
       if (unplug % 2 == 0) {
         EXPECT_TRUE(bench_.wait_until_link(device, false));
       }
@@ -100,12 +100,12 @@ class GatewayUnderLoad : public GatewayStress {
       right += caller->right_answers();
       motions += caller->motions_started();
     }
-    // Most requests wait for a device that is up, and a cable is rarely pulled: excuses are the exception.
+    // Most requests wait for the device to be up, and cables are rarely pulled, so problems are the exception.
     EXPECT_GT(right, static_cast<int>(kCallers) * kRequests / 2);
     EXPECT_GT(motions, static_cast<int>(kCallers) * kRequests / 20);
   }
 
-  // Written by threads of their own to the very end, with all the connects of a pulled cable.
+  // Expects complete recordings, including all reconnections. Separate threads write them until the end.
   void expect_whole_recordings() {
     for (std::size_t device = 0; device < kDevices; ++device) {
       const Result<stage::Recording> recording = stage::parse_recording(bench_.recording(device));
@@ -160,8 +160,8 @@ TEST_F(GatewayUnderLoad, EverybodyIsAnsweredOnceAndByTheRightDevice) {
   expect_whole_recordings();
 }
 
-// The lines end while callers still ask and cables are pulled. What was asked by then is answered once or never, and
-// nothing of it is left behind.
+// The lines end while callers still send requests and cables are pulled. Every request is answered at most once, and no
+// request is left behind.
 class GatewayEnding : public GatewayStress, public testing::WithParamInterface<std::size_t> {};
 
 TEST_P(GatewayEnding, InTheMiddleOfEverything) {

@@ -1,4 +1,4 @@
-// Who was promised an answer, and who got one.
+// Record of requests and of their answers.
 #pragma once
 
 #include <condition_variable>
@@ -10,10 +10,10 @@
 
 namespace axisgate::stress {
 
-// One caller's requests. Thread safe; outlives everything that may answer.
+// A Ledger records the requests of one caller. Thread safe. It must outlive all callbacks that may answer.
 class Ledger {
  public:
-  // Held by the callback of one request.
+  // A Ticket stands for one request, and is owned by its callback.
   class Ticket {
    public:
     Ticket(Ledger& ledger, std::string asked) : ledger_(ledger), asked_(std::move(asked)) {}
@@ -31,11 +31,11 @@ class Ledger {
   std::size_t issued() const;
   std::size_t answered() const;
 
-  // Waits until at most `count` requests are unanswered. False when that takes absurdly long.
+  // Waits until at most `count` requests are unanswered. Returns false if that takes more than two minutes.
   [[nodiscard]] bool wait_until_open(std::size_t count);
 
-  // The first ten requests that were not answered once, or are still held by somebody. Call it when nobody can answer
-  // any more; with `dropped`, no answer is as good as one.
+  // Returns the first ten requests that were not answered exactly once, or whose callback still exists. Call it when no
+  // more answers can arrive. With `dropped`, unanswered requests are accepted, too.
   std::string wrong(bool dropped) const;
 
  private:

@@ -1,4 +1,4 @@
-// A simulated SHRC-203 behind a pseudo terminal, on a thread of its own.
+// Simulated SHRC-203 at a pseudo terminal, on a separate thread.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,9 @@
 
 namespace axisgate::stress {
 
-// Its time runs 100 times as fast as ours, its bytes take none. It ends as when its cable is pulled: a program that has
-// the terminal open loses it at once, and the path is gone. Another unit may then take the same path.
+// A PluggedUnit runs 100 times faster than real time, and its bytes take no time. Its destruction has the effect of a
+// pulled cable: a program that has the terminal open loses it at once, and the path is removed. Another unit may then
+// use the same path.
 class PluggedUnit {
  public:
   PluggedUnit(const std::string& path, shrc203::simulator::Options options);

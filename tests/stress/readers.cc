@@ -113,7 +113,7 @@ void come_and_go(server::Gateway& gateway, int times) {
       publish_fact(gateway.events());
       while (woken < due && monotonic_now() < limit) take_a_breath();
     }
-    // Some leave before the next wake-up, some after it, some during it.
+    // Subscriptions end before, during or after the next wake-up.
     const std::uint64_t revision = publish_fact(gateway.events());
     for (int look = 0; look <= i % 300; ++look) EXPECT_GE(gateway.events().newest_revision(), revision);
   }

@@ -1,4 +1,4 @@
-// Those who only look: at the facts, quickly and slowly, at the newest states, at the metrics page.
+// Readers of facts, quick and slow, and of the newest states; and publishers of facts for them.
 #pragma once
 
 #include <atomic>
@@ -15,14 +15,14 @@
 
 namespace axisgate::stress {
 
-// Reads whenever it is woken, as a stream does, and never falls behind: every revision once and in order, and of every
-// motion one outcome with nothing after it.
+// A QuickReader reads whenever it is woken, as a stream does, and never falls behind. It expects every revision once
+// and in order, and one outcome for each motion with nothing after it.
 class QuickReader {
  public:
   explicit QuickReader(server::EventBus& bus);
 
   std::uint64_t next() const { return next_; }
-  // Until every motion that began has its outcome; false when that takes absurdly long.
+  // Waits until every motion that began has its outcome. Returns false if that takes more than a minute.
   [[nodiscard]] bool wait_until_all_ended() const;
 
  private:
@@ -33,10 +33,11 @@ class QuickReader {
   std::atomic<std::uint64_t> next_ = 1;
   std::atomic<std::uint64_t> motions_open_ = 0;
   std::map<std::pair<std::string, stage::MotionId>, stage::MotionState> motions_;
-  std::unique_ptr<server::WakeUps::Subscription> subscription_;  // the last member: gone before what it wakes
+  std::unique_ptr<server::WakeUps::Subscription>
+      subscription_;  // last member, so that it is destroyed before the members that its callback uses
 };
 
-// Every state that it is woken for: never an older one, never another device's.
+// A StateReader reads a state whenever it is woken, and expects neither an older state nor the state of another device.
 class StateReader {
  public:
   StateReader(Bench& bench, std::size_t device);
@@ -50,14 +51,14 @@ class StateReader {
   std::unique_ptr<server::WakeUps::Subscription> subscription_;
 };
 
-// On a thread of its own, until `ended`: lets more pass by than is kept, is notified of it, and continues without a
-// gap. Returns the number of notifications.
+// Reads slowly until `ended`; runs on a separate thread. Lets more facts pass than are kept, is notified of the loss,
+// and then continues without a gap. Returns the number of notifications.
 int read_slowly(server::EventBus& bus, const std::atomic<bool>& ended);
 
-// Publishes so many facts of nobody's, in portions that `reader` can follow.
+// Publishes `facts` facts that belong to no device, in portions that `reader` can follow.
 void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts);
 
-// Subscribes, publishes and leaves, again and again, and lets timers run.
+// Repeatedly subscribes, publishes and unsubscribes, and lets timers run.
 void come_and_go(server::Gateway& gateway, int times);
 
 }  // namespace axisgate::stress

@@ -1,5 +1,5 @@
-// axisgate-explore: seeds at leisure. The same trials as the ordinary tests run, as many and as long as wanted, and for
-// a failure the shortest history that leaving out faults leads to.
+// axisgate-explore: runs the same trials as the ordinary tests, any number of seeds of any length. For a failure it
+// leaves out faults, and prints the shortest history that still fails.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -43,7 +43,7 @@ struct Totals {
 
 double hours(Duration time) { return std::chrono::duration<double>(time).count() / 3600; }
 
-// As Markdown, to be pasted.
+// Prints the totals as a Markdown table.
 void print(const Totals& totals) {
   fmt::print("{} seeds, {:.1f} virtual hours, {} exchanges, {} barriers, {} violations\n\n", totals.seeds,
              hours(totals.virtual_time), totals.exchanges, totals.barriers, totals.failures);

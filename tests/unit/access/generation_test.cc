@@ -1,4 +1,4 @@
-// The generation in fencing tokens: greater for every start of the daemon.
+// The generation in fencing tokens, which grows with every start of the daemon.
 #include "server/access/generation.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How much each identity may have open.
+// Limits on what each identity may have open.
 #include "server/access/identity_limits.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Whom a stop holds back, and who rearms.
+// Latches: which callers a stop holds back, and who may rearm.
 #include "tests/unit/access/lease_fixture.h"
 
 namespace axisgate::server::latches_test {
@@ -20,7 +20,7 @@ TEST_F(LatchesTest, AnothersStopHoldsTheHolderBackUntilRearm) {
   EXPECT_EQ(may("anna", token, kOne), kAllowed);
 }
 
-// It waits in the queue when the stop comes, and is withdrawn.
+// The motion waits in the queue when the stop arrives, and is withdrawn.
 TEST_F(LatchesTest, WhoWaitsToMoveIsHeldBackAsWhoMoves) {
   stop_by("unix bert", kOne, 0, {{"unix anna", 0, kOne, 7}, {"unix bert", 0, kOne, 8}});
   EXPECT_EQ(may("unix anna", 0, kOne), Reason::stopped_by);
@@ -36,7 +36,7 @@ TEST_F(LatchesTest, TheHoldersOwnStopHoldsNobodyBack) {
   EXPECT_EQ(may("anna", token, kOne), kAllowed);
 }
 
-// Over another connection, or without its bearer token.
+// The same session stops over another connection, or without its lease token.
 TEST_F(LatchesTest, AProgramsOwnStopHoldsItNotBack) {
   const std::string one = "tcp 127.0.0.1:40000", other = "tcp 127.0.0.1:40001", session = "0f9d2c71";
   leases_.begin({one, 0, kOne, 1, session}, {}, now_);
@@ -67,7 +67,7 @@ TEST_F(LatchesTest, ALatchOutlivesItsLease) {
   EXPECT_EQ(may("anna", next, kOne), kAllowed);
 }
 
-// From another terminal, which has no token.
+// The stop comes from another terminal, which has no token.
 TEST_F(LatchesTest, AnOwnStopEndsWithTheLeaseAndHidesNoOther) {
   const LeaseToken first = held_by("unix anna", kOne);
   stop_by("unix anna", kOne);
@@ -98,7 +98,7 @@ TEST_F(LatchesTest, AnAnonymousCallerRearmsNobodysLease) {
   EXPECT_EQ(rearm("tcp 127.0.0.1:40000", token), kOne);
 }
 
-// Each pair of who stopped and who moved, and who may move the axis after that.
+// Each row: who stopped, who had moved, and who may then not move the axis.
 TEST_F(LatchesTest, WhomAStopHoldsBack) {
   const std::string anna = "unix anna", bert = "unix bert", tcp = "tcp 127.0.0.1:40000", other = "tcp 127.0.0.1:40001";
   struct Row {
@@ -172,7 +172,7 @@ TEST_F(LatchesTest, OnesOwnStopDoesNotHoldOneBack) {
   EXPECT_EQ(may("anna", 0, kOne), kAllowed);
 }
 
-// Its holder has gone, and what runs may finish.
+// The holder has released the lease, and the running motion may finish.
 TEST_F(LatchesTest, AStopWhileALeaseEndsHoldsItsHolderBack) {
   const LeaseToken token = held_by("unix anna", kOne, AtLoss::finish);
   begin(1, "unix anna", token, kOne);
@@ -203,7 +203,7 @@ TEST_F(LatchesTest, AStopHoldsAllBackWhoMovedTheAxis) {
   EXPECT_EQ(may("unix carl", 0, kOne), Reason::stopped_by);
 }
 
-// A lease that was handed to another program.
+// The lease's holder has passed its token to another program.
 TEST_F(LatchesTest, AStopHoldsBackWhoMovedUnderAnothersLease) {
   const LeaseToken token = held_by("unix anna", kOne);
   begin(1, "token scan", token, kOne);
@@ -213,7 +213,7 @@ TEST_F(LatchesTest, AStopHoldsBackWhoMovedUnderAnothersLease) {
   EXPECT_EQ(may("token scan", 0, kOne), Reason::stopped_by);
 }
 
-// Users of the Unix socket who have no name of their own any more.
+// Users of the Unix socket who share the name "unix" because they have no name of their own.
 TEST_F(LatchesTest, UsersWhoShareANameAreAnonymous) {
   begin(1, "unix", 0, kOne);
   stop_by("unix", kOne);

@@ -1,4 +1,4 @@
-// What leases report as it happens, and what the journal keeps of it.
+// Events of leases, and the journal entries that they leave.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What the tests of leases and of latches share: one device's leases, and what they answer.
+// Fixture for the tests of leases and latches: the leases of one device, and their answers.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class LeaseFixture : public testing::Test {
     EXPECT_TRUE(lease) << lease.error().message;
     return lease ? lease->token : 0;
   }
-  // Waits for a minute; the answers come into answers_.
+  // Waits for a lease for at most a minute; the answer is added to answers_.
   std::uint64_t wait_for(const std::string& holder, AxisSet axes, std::optional<Duration> use = {}) {
     return leases_.acquire(
         {.axes = axes, .expected_use = use}, holder, true, now_ + std::chrono::seconds(60), now_,

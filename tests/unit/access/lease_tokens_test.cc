@@ -1,4 +1,4 @@
-// The tokens of leases, and their seals.
+// Tokens of leases, and their seals.
 #include "server/access/lease_tokens.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace axisgate::server::lease_tokens_test {
 namespace {
 
-// One bit less or more, and it is a guess.
+// A token with one changed bit is a guess.
 TEST(LeaseTokensTest, OnlyWhatWasSealedIsOpened) {
   const LeaseTokens tokens(7);
   const std::string sealed = tokens.seal(0x0102030405060708);

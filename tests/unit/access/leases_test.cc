@@ -158,7 +158,7 @@ TEST_F(LeasesTest, WhoHasWaitedInVainLearnsWhoMoved) {
   EXPECT_THAT(problem.message, HasSubstr("axis 1 is in motion 7 (move by bert)"));
 }
 
-// However many of them wait already: each asks again when its turn has come.
+// Each motion is refused, however many wait already, and asks again at its turn.
 TEST_F(LeasesTest, NoMotionWithoutALeaseOvertakesALeaseThatWaits) {
   begin(1, "bert", 0, kOne);
   wait_for("anna", kBoth);

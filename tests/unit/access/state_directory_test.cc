@@ -1,4 +1,4 @@
-// The state directory: one daemon, which others may not write into.
+// The state directory: used by one daemon, and not writable by other users.
 #include "server/access/state_directory.h"
 
 #include <fcntl.h>
@@ -124,7 +124,7 @@ TEST_F(StateDirectoryTest, AFileIsNone) {
                               " is not a directory; move it away, or set STATE_DIRECTORY to another path");
 }
 
-// Such a daemon keeps nothing, and its log says so: the generation cannot be written either.
+// A daemon without the directory keeps nothing, and its log says so, because the generation cannot be written either.
 TEST_F(StateDirectoryTest, WhatCannotBeMadeIsHeldByNobody) { EXPECT_EQ(why("/proc/axisgate"), "held"); }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Files of the state directory: no link is followed, nothing but a regular file is read, and nothing waits.
+// Files of the state directory: no link is followed, only regular files are read, and no call waits.
 #include "server/access/synced_file.h"
 
 #include <fcntl.h>
@@ -108,7 +108,7 @@ TEST_F(StateFile, WhatAKilledDaemonLeftIsReplaced) {
   ASSERT_TRUE(replace_synced(path(), "fresh"));
   EXPECT_EQ(content("tokens"), "fresh");
   EXPECT_EQ(fs::status(path()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
-  // A reader of a FIFO would otherwise receive the file.
+  // Otherwise a reader of the FIFO would receive the file.
   ASSERT_EQ(::mkfifo(path("tokens.new").c_str(), 0600), 0);
   ASSERT_TRUE(replace_synced(path(), "newer"));
   EXPECT_EQ(content("tokens"), "newer");

@@ -1,4 +1,4 @@
-// Tokens: made once, kept as hashes, expired, revoked.
+// Tokens: made once, stored as hashes, expired, revoked.
 #include "server/access/tokens.h"
 
 #include <gmock/gmock.h>
@@ -127,7 +127,7 @@ TEST_F(TokensTest, NothingIsMadeThatCannotBeKept) {
 TEST_F(TokensTest, ARevocationThatCouldNotBeWrittenHoldsAndIsWrittenLater) {
   const std::string token = make("scan");
   EXPECT_EQ(tokens_->write_again(), false);
-  // Also root cannot write this.
+  // Even root cannot write the file now.
   const std::string obstacle = path_ + ".new";
   ASSERT_EQ(::mkdir(obstacle.c_str(), 0700), 0);
   EXPECT_EQ(tokens_->revoke("scan", kNow).error().reason, Reason::internal);

@@ -1,4 +1,4 @@
-// Files that decide what the daemon does: who else may write them.
+// Permissions of files that decide what the daemon does: who else may write them.
 #include "server/access/writers.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-// An axis in mm from line 4 on, 10 mm long; what is added begins in line 10.
+// An axis in mm from line 4 on, with 10 mm of travel; added lines begin in line 10.
 constexpr const char* kAxis =
     "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n"
     "[[device.axis]]\nnumber = 1\nunit = \"mm\"\n"
@@ -28,7 +28,7 @@ std::vector<std::string> errors_of_axis(const std::string& lines) {
   return errors;
 }
 
-// A table for operators; its keys begin in line 12.
+// A table for operators, whose keys begin in line 12.
 std::vector<std::string> errors_of_override(const std::string& lines) {
   return errors_of_axis("[[device.axis.override]]\nwhose = \"operator\"\n" + lines);
 }
@@ -88,7 +88,7 @@ TEST(ConfigAxis, ItIsSaidWhomTheLimitsMean) {
               ElementsAre(StartsWith("lab.toml:10: device.axis.override.whose: is missing; use a role, \"operator\"")));
 }
 
-// A slip must not mean nobody: whom it was meant for would move as everybody does.
+// A misspelled name must be an error: if it matched nobody, its caller would move with everybody's limits.
 TEST(ConfigAxis, NobodyIsMeantByASlip) {
   for (const char* whose : {"student", "oprator", "Operator", "", "tokens student", "Token student"}) {
     EXPECT_THAT(errors_of_whose(whose),

@@ -1,4 +1,4 @@
-// The table [jobs] of the configuration: how much the jobs of mills may take up, and how long they are kept.
+// The table [jobs] of the configuration: how much space the jobs of mills may take, and how long they are kept.
 #include <gmock/gmock.h>
 
 #include <string>

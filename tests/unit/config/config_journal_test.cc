@@ -1,4 +1,4 @@
-// The table [journal] of the configuration: who reads the entries of other callers.
+// The table [journal] of the configuration: who may read the entries of other callers.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// The lines of a mill in the configuration: printer devices, and flow control by XON and XOFF or by DTR and DSR.
+// The lines of mills in the configuration: printer devices, and flow control by XON/XOFF or DTR/DSR.
 #include <gmock/gmock.h>
 
 #include <string>

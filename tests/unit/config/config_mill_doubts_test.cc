@@ -1,4 +1,4 @@
-// The examples of two mills, and what may be wrong with the line to a mill without being an error.
+// The example configurations of two mills, and the warnings about a mill's line that are not errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ constexpr const char* kSimulated =
 
 MillConfig mill_in(const Config& config) { return std::get<MillConfig>(config.devices.at(0).family); }
 
-// Without a key to fill in, and without a doubt.
+// The examples need no further key and cause no warning.
 TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
   for (const char* name : {"srm-20", "mdx-20"}) {
     const auto config = load_config(paths::in_project("deploy/" + std::string(name) + ".toml"), device_kinds());
@@ -35,7 +35,7 @@ TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
   }
 }
 
-// None of it is an error: there are mills that are connected so.
+// The doubts are not errors: some mills are connected like this.
 TEST(ConfigMills, DoubtsAreNamed) {
   const auto doubts = [](std::string text, std::string_view profile) {
     text.replace(text.find("mdx-20"), 6, profile);

@@ -1,4 +1,4 @@
-// Which lines keep the host from sending what a mill has no room for.
+// Flow control of a mill's lines: which of them keep the host from sending more than the mill has room for.
 #include <gtest/gtest.h>
 
 #include <string>

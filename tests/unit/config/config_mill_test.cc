@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-// What is added begins in line 6.
+// Added lines begin in line 6.
 constexpr const char* kSerial =
     "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nconnection = \"serial\"\n";
 constexpr const char* kSimulated =
@@ -41,7 +41,7 @@ std::vector<std::string> errors_of(const std::string& text) {
   return lines;
 }
 
-// Of what is added to a serial mill.
+// Returns the errors of a serial mill with the added keys.
 std::vector<std::string> errors_with(const std::string& added) {
   return errors_of(std::string(kSerial) + kPath + added);
 }
@@ -119,7 +119,7 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(mill.origins[1].z, std::nullopt);
 }
 
-// Only where the line holds the host back is nothing lost; a window is one of paced streaming.
+// Full streaming is the default only if the line can hold the host back; a window selects paced streaming.
 TEST(ConfigMill, TheUsualStreaming) {
   const auto is_full = [](const std::string& added) {
     const auto config = parse(std::string(kSerial) + kPath + added);
@@ -223,7 +223,7 @@ TEST(ConfigMill, AProfileIsOneThatThereIs) {
                   kProfileRule));
 }
 
-// A profile in a folder of its own.
+// A profile file in its own folder.
 class ConfigMillProfile : public testing::Test {
  protected:
   ConfigMillProfile() { std::filesystem::create_directories(folder); }
@@ -375,7 +375,7 @@ TEST(ConfigMill, TheExampleIsRight) {
   const auto config = parse_config(*text, path, device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   ASSERT_EQ(config->devices.size(), 1u);
-  // Its keys that are commented out show the defaults: with them it is the same.
+  // The keys that are commented out show the defaults, so the configuration stays the same with them.
   std::string whole;
   for (std::size_t at = 0; at < text->size();) {
     const std::size_t end = std::min(text->find('\n', at), text->size());

@@ -1,4 +1,4 @@
-// How the jobs of a mill are sent, in its table: streaming and slack.
+// Keys of a mill's table for sending jobs: streaming and slack.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// What is added begins in line 7 of the first, and in line 6 of the second.
+// Added lines begin in line 7 of kSerial and in line 6 of kSimulated.
 const std::string kSerial =
     "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nconnection = \"serial\"\n"
     "path = \"/dev/ttyUSB0\"\n";

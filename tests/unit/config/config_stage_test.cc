@@ -26,8 +26,8 @@ constexpr const char* kRotary =
     "name = \"OSMS-60YAW\"\nkind = \"rotary\"\npulse = \"0.0025deg\"\nmaximum_speed = \"30deg/s\"\n"
     "modulo = \"360deg\"\n";
 
-// A configuration in a folder of its own, whose axis from line 4 on names a profile in the folder below; what is added
-// begins in line 7.
+// A configuration in its own folder, whose axis, from line 4 on, names a profile in the subfolder; added lines begin in
+// line 7.
 class ConfigStage : public testing::Test {
  protected:
   ConfigStage() {
@@ -51,7 +51,7 @@ class ConfigStage : public testing::Test {
     return config ? std::get<StageConfig>(config->devices.at(0).family).profile.axes[0] : stage::AxisProfile{};
   }
 
-  // Without the folder in front.
+  // Returns the errors with the folder removed from their paths.
   std::vector<std::string> errors(const std::string& stage, const std::string& lines = "") const {
     std::vector<std::string> told;
     if (const auto config = read(stage, lines); !config) {
@@ -222,7 +222,7 @@ TEST_F(ConfigStage, UnknownKeysAndLimitsThatContradictOneAnother) {
                           "stages/x.toml:6: maximum_speed: must be above 0"));
 }
 
-// The axis's own keys are not blamed for it, and a profile of two axes is reported once.
+// The axis's own keys are not blamed for an invalid profile, and a profile of two axes is reported once.
 TEST_F(ConfigStage, OfAProfileThatIsWrongOnlyItselfIsTold) {
   EXPECT_THAT(errors("name = \"x\"\nkind = \"rotary\"\n",
                      "travel_maximum = \"90deg\"\n[[device.axis]]\nnumber = 2\nstage = \"stages/x.toml\"\n"),

@@ -277,7 +277,8 @@ TEST(Config, AFileThatIsNotThereSaysSo) {
 }
 
 TEST(Config, TheExampleThatIsInstalledIsRight) {
-  // Read here, because load_config() also judges the owner, who may be anybody for a source tree.
+  // Parsed with parse_config(), because load_config() also checks the file's owner, which is arbitrary in a source
+  // tree.
   const std::string path = paths::in_project("deploy/axisgate.toml");
   const auto text = read_config_file(path);
   ASSERT_TRUE(text) << text.error();

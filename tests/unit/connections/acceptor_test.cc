@@ -32,14 +32,14 @@ class AcceptorTest : public ::testing::Test {
     acceptor_->listen(server_.take_listener());
   }
 
-  // The next connection that is handed over.
+  // Waits for the next accepted connection and returns its service.
   Service next() {
     const std::size_t before = connections_.size();
     EXPECT_TRUE(loop_.run_until([&] { return connections_.size() > before; }));
     return connections_.size() > before ? connections_.back().service : Service::stop_only;
   }
 
-  // Fills the reserve, which all come into, and more, again and again.
+  // Repeatedly connects more clients than the reserve has room for and checks that every descriptor is closed again.
   void expect_no_descriptor_lost() {
     const std::size_t before = open_descriptors();
     for (int round = 0; round < 3; ++round) {
@@ -116,7 +116,7 @@ TEST_F(AcceptorTest, Hazard55DescriptorsRunOutAndComeBackAndAStopsConnectionGets
   EXPECT_EQ(next(), Service::all);
 }
 
-// As gRPC, which closes a connection some time after the reserve has shut it down.
+// The test plays gRPC, which closes a connection some time after the reserve has shut it down.
 TEST_F(AcceptorTest, Hazard55WithoutDescriptorsAFloodIsAcceptedToItsLast) {
   accept({100, 2});
   std::vector<Descriptor> clients(20);
@@ -161,7 +161,7 @@ TEST_F(AcceptorTest, RestsWhenNothingCanBeAccepted) {
   });
   const Descriptor client = server_.connected();
   EXPECT_TRUE(loop_.run_until([&] { return tried.size() >= 20; }));
-  // Each time once for all and once for the reserve, and 5 ms between two times.
+  // Each round tries twice, once normally and once for the reserve; rounds are 5 ms apart.
   EXPECT_GE(tried[19] - tried[0], std::chrono::milliseconds(9 * 5));
 }
 

@@ -1,4 +1,4 @@
-// When the log says that the certificate expires.
+// Times at which the log warns that the certificate expires.
 #include "server/connections/certificate_watch.h"
 
 #include <gtest/gtest.h>

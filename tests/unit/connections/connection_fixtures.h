@@ -1,4 +1,5 @@
-// What the tests of server/connections share: a listening socket with clients, and a process without descriptors.
+// Fixtures for the tests of server/connections: a listening socket with clients, and a process without free
+// descriptors.
 #pragma once
 
 #include <dirent.h>
@@ -20,7 +21,7 @@
 
 namespace axisgate::server {
 
-// Clients are made before descriptors run out, and connect afterwards.
+// A listening Unix socket. Clients can be created before descriptors run out and connected afterwards.
 class UnixServer {
  public:
   UnixServer() : listener_(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
@@ -49,7 +50,7 @@ class UnixServer {
   Descriptor listener_;
 };
 
-// Whether the other end has ended the connection.
+// Reports whether the other end has closed the connection.
 inline bool ended(const Descriptor& client) {
   pollfd poll{client.get(), POLLRDHUP, 0};
   return ::poll(&poll, 1, 0) == 1 && (poll.revents & (POLLRDHUP | POLLHUP)) != 0;
@@ -62,12 +63,12 @@ inline std::size_t open_descriptors() {
   return count;
 }
 
-// As long as it lives, no descriptor beyond those open is to be had; one that is closed can be opened again.
+// While a NoDescriptors exists, the process gets no further descriptor; the number of a closed one can be used again.
 class NoDescriptors {
  public:
   NoDescriptors() {
     ::getrlimit(RLIMIT_NOFILE, &before_);
-    // Not lower than any number in use: a limit does not close what is open, and what is closed can be opened again.
+    // The limit is above every descriptor in use: a limit closes nothing, and numbers below it can be used again.
     const Descriptor highest(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 256));
     rlimit none = before_;
     none.rlim_cur = static_cast<rlim_t>(highest.get());

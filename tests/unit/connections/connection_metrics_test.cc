@@ -56,7 +56,7 @@ TEST(ConnectionMetrics, WhoeverEndsThemWaitsForAPageThatIsBeingMade) {
     connections.reset();
     return answered.load();
   });
-  // Nothing says that the other thread waits; without the waiting it is through long before.
+  // No event shows that the other thread waits; without the wait it would finish well within this time.
   EXPECT_EQ(ended.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
   answer.set_value();
   EXPECT_TRUE(ended.get());

@@ -29,7 +29,7 @@ TEST(OpenConnections, ANumberThatIsAnothersNowIsNotCounted) {
   auto [one, other] = socket_pair();
   open.add(one.get(), "uid 1000");
   EXPECT_FALSE(open.has_room());
-  // As when the number was closed and assigned again.
+  // The descriptor's number is closed and assigned again.
   ASSERT_EQ(::dup2(other.get(), one.get()), one.get());
   EXPECT_TRUE(open.has_room());
   EXPECT_EQ(open.count(), 0u);

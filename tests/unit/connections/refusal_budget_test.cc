@@ -1,4 +1,4 @@
-// Refused requests: which have an entry of their own, and which are counted.
+// Refused requests: which have their own journal entry, and which are counted.
 #include "server/journal/refusal_budget.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ class RefusalBudgetTest : public testing::Test {
     for (const Entry& entry : entries) all.push_back(entry.who + "|" + entry.body);
     return all;
   }
-  // How many entries that makes.
+  // Returns the number of entries that the refusals make.
   std::size_t refuse(int times, const std::string& who) {
     std::size_t entries = 0;
     for (int i = 0; i < times; ++i) entries += budget_.add(refusal(who), now_).size();

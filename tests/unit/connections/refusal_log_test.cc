@@ -1,4 +1,4 @@
-// What of many refusals is in the log.
+// Log lines of many refusals.
 #include "server/events/refusal_log.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ class RefusalLogTest : public ::testing::Test {
   void note(const std::string& source, int times) {
     for (int i = 0; i < times; ++i) refusals_->note(source, source + " was refused");
   }
-  // The 10 s of all windows that are open have passed.
+  // Lets the 10 s of all open windows pass.
   void pass() {
     for (const auto& task : std::exchange(tasks_, {})) task();
   }
@@ -86,7 +86,7 @@ TEST_F(RefusalLogTest, WhatIsUnsaidAtTheEndIsSaidThen) {
   note("uid 7", 6);
   refusals_.reset();
   EXPECT_THAT(log_.text(), HasSubstr("left out 1 more refusals of uid 7"));
-  pass();  // the timer of one that has gone
+  pass();  // runs the timer of the destroyed object
   EXPECT_EQ(lines("left out"), 1);
 }
 

@@ -76,7 +76,7 @@ TEST_F(WatchdogTest, AnAnswerAtOnceCounts) {
   EXPECT_EQ(alive_, 2);
 }
 
-// What the threads are asked through goes after the watchdog.
+// The objects through which the threads are asked are destroyed after the watchdog.
 TEST_F(WatchdogTest, ItsEndWaitsWhileThreadsAreAsked) {
   std::promise<void> asking, ended;
   std::future<void> end = ended.get_future();
@@ -88,7 +88,8 @@ TEST_F(WatchdogTest, ItsEndWaitsWhileThreadsAreAsked) {
                                        answer();
                                        if (++asked == 1) return;
                                        asking.set_value();
-                                       // Only a failing test sees it end; the others wait for it here.
+                                       // Only a failing test sees the watchdog end here; otherwise the wait lasts the
+                                       // whole limit.
                                        const auto seen = end.wait_for(std::chrono::milliseconds(100));
                                        ended_while_asking = seen == std::future_status::ready;
                                      }}},

@@ -1,4 +1,4 @@
-// The command table as it is shown to people.
+// The command table as people see it.
 #include "device/shrc203/command/listing.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ TEST(Listing, SaysWhatParametersMayBe) {
   EXPECT_EQ(listed("L:").lane, Lane::stop);
 }
 
-// A name that begins no row would keep nothing.
+// A name that begins no row would restrict nothing.
 TEST(AdminCommands, EachBeginsACommand) {
   for (const auto& [name, request] : admin_commands()) {
     const auto begins = [&](const CommandRow& row) { return row.name.starts_with(name); };

@@ -154,7 +154,7 @@ TEST(Speed, MayNameTheSecond) {
   EXPECT_FALSE(parse_speed("/s", Unit::millimeters));
 }
 
-// Manual 67) M:, setting ranges: 1,000 pulses of 1 nm are N1000, U1, M0.001, and of 0.000001 degrees D0.001.
+// Manual 67) M:, setting ranges: 1,000 pulses of 1 nm are N1000, U1 or M0.001; 1,000 of 0.000001 degrees are D0.001.
 TEST(ToPulses, AgreesWithTheManualsExamples) {
   EXPECT_EQ(pulses_of("1000nm", k1Nanometer), 1000);
   EXPECT_EQ(pulses_of("1um", k1Nanometer), 1000);
@@ -322,7 +322,7 @@ TEST(WithinTurn, IsExactOnBothSidesOfTheOrigin) {
   EXPECT_EQ(in_turn(9'001, {225, 1}, half_step), "0.0025");
 }
 
-// No whole number of pulses makes a turn: nothing is rounded, however many there were.
+// A turn is not a whole number of pulses here, and nothing is rounded, however many pulses there were.
 TEST(WithinTurn, IsExactWhereATurnIsNoWholeNumberOfPulses) {
   EXPECT_EQ(in_turn(51'429, {360, 0}, {{7000, 0}, true}), "0.003");
   EXPECT_EQ(in_turn(999'999'999, {360, 0}, {{7000, 0}, true}), "159.993");

@@ -1,4 +1,4 @@
-// Collects the events that state machines report as illegal.
+// Collector of the events that state machines report as illegal.
 #pragma once
 
 #include <string>

@@ -58,7 +58,7 @@ TEST(Task, WhatWasDeliveredBeforeIsNotWaitedFor) {
   Log log;
   OneShot<int> shot(executor);
   shot.deliver(1);
-  shot.deliver(2);  // once only
+  shot.deliver(2);  // only the first delivery counts
   executor.spawn(add_doubled(shot, log));
   executor.run();
   EXPECT_THAT(log.lines, ElementsAre("begins", "2"));
@@ -96,7 +96,7 @@ Task<void> spawn_another(Executor& executor, Log& log) {
     co_return;
   };
   executor.spawn(second(log));
-  executor.run();  // from within: the outer run gets there
+  executor.run();  // within a task, so the outer run() continues with the second task
   log.add("first");
   co_return;
 }
@@ -141,7 +141,7 @@ TEST(Signal, TellsWhenTheDeadlineHasPassed) {
   executor.run();
   EXPECT_THAT(log.lines, ElementsAre("late"));
   EXPECT_EQ(executor.next_deadline(), std::nullopt);
-  signal.notify();  // nobody is left
+  signal.notify();  // no waiter is left
   executor.run();
   EXPECT_THAT(log.lines, ElementsAre("late"));
 }

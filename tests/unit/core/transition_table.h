@@ -1,4 +1,5 @@
-// A state machine checked against its table as device/shrc203/README.md draws it: one row a state, one cell an event.
+// Check of a state machine against its table in device/shrc203/README.md: one row for each state, one cell for each
+// event.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,10 +12,10 @@
 
 namespace axisgate::testing_tables {
 
-// By the state's name; "-" cannot be.
+// Rows by the state's name; "-" marks an impossible event.
 using Table = std::map<std::string, std::vector<std::string>>;
 
-// Every pair is looked at. Yields how many of them cannot be.
+// Checks every pair of state and event, and returns the number of impossible pairs.
 template <class State, class Event, class Next>
 int illegal_pairs(const Table& table, std::size_t states, const std::vector<std::string>& events, Next next) {
   int illegal = 0;

@@ -1,4 +1,4 @@
-// One client's conversation, with a desk that a test decides for. Client and gRPC are played by hand, frame by frame.
+// A conversation with one client, whose desk the test controls. The test plays the client and gRPC, frame by frame.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ namespace axisgate::front {
 inline constexpr std::uint8_t kAck = 1, kEndStream = 1, kEndHeaders = 4;
 inline constexpr FrontLimits kLimits{};
 
-// What a test has said so far.
+// Answer of a call; returns the replies that the test has given since the last take().
 class TestAnswer final : public Answer {
  public:
   explicit TestAnswer(std::shared_ptr<std::vector<Reply>> replies) : replies_(std::move(replies)) {}
@@ -32,7 +32,8 @@ class TestAnswer final : public Answer {
   const std::shared_ptr<std::vector<Reply>> replies_;
 };
 
-// By the method: /forward, /stop, /ask with a place, anything else is refused; /unwanted without a right.
+// Decides by method: /forward forwards, /stop answers, /ask answers with a place; anything else is refused, /unwanted
+// as an unwanted call.
 class TestDesk final : public Desk {
  public:
   Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
@@ -60,7 +61,7 @@ class TestDesk final : public Desk {
   std::shared_ptr<int> place = std::make_shared<int>();
   std::string caller;
   std::vector<std::string> judged;
-  // With the message; nothing, where the request was not one message.
+  // Requests with their message; nullopt if the request was not exactly one message.
   std::vector<std::pair<std::optional<std::string>, std::function<void(Reply)>>> asked;
 };
 
@@ -89,7 +90,7 @@ inline std::vector<Seen> only(FrameType type, std::vector<Seen> seen) {
 
 class ConversationTest : public testing::Test {
  protected:
-  // Both ends have greeted each other.
+  // Opens the conversation; afterwards both ends have exchanged their settings.
   void open(bool stops_only = false) {
     client_reader = server_reader = FrameReader();
     encoder = HeaderEncoder();
@@ -99,7 +100,7 @@ class ConversationTest : public testing::Test {
     greeted = false;
     begin(stops_only);
     say(std::string(kPreface) + settings_frame({}) + settings_ack());
-    EXPECT_THAT(only(FrameType::settings, heard()), testing::SizeIs(2));  // SETTINGS, and the acknowledgement
+    EXPECT_THAT(only(FrameType::settings, heard()), testing::SizeIs(2));  // SETTINGS and the acknowledgement
   }
   void begin(bool stops_only = false) {
     conversation.emplace(
@@ -119,7 +120,7 @@ class ConversationTest : public testing::Test {
     const auto flags = static_cast<std::uint8_t>(kEndHeaders | (whole ? kEndStream : 0));
     return frame(FrameType::headers, flags, stream, encoder.encode(headers_for(path, std::move(more))));
   }
-  // gRPC's answer to a call: its head, which is all of it if it is the last.
+  // Returns the header frame of gRPC's answer to a call; with `last` it is the whole answer.
   std::string answer(std::uint32_t stream, bool last) {
     return grpc_headers(stream, last, {{":status", "200"}, {"grpc-status", "0"}});
   }
@@ -132,7 +133,7 @@ class ConversationTest : public testing::Test {
     return frame(FrameType::data, last ? kEndStream : 0, stream, with_prefix(text));
   }
   std::vector<Seen> heard() { return frames_in(client_reader, conversation->take_to_client()); }
-  // What gRPC receives. It greets at once, as a server does.
+  // Returns the frames that gRPC receives. gRPC sends its SETTINGS at once, as a server does.
   std::vector<Seen> passed_on() {
     std::string bytes = conversation->take_to_grpc();
     if (bytes.starts_with(kPreface)) bytes.erase(0, kPreface.size());

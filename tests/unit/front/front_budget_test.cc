@@ -1,4 +1,4 @@
-// Token buckets, and what is remembered of a source.
+// Token buckets, and the data kept about each source.
 #include <gtest/gtest.h>
 
 #include <chrono>

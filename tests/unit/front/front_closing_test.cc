@@ -1,4 +1,4 @@
-// For which cause the front closes a connection.
+// Causes for which the front closes a connection.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -44,7 +44,7 @@ class ClosingTest : public ::testing::Test {
                                   {":authority", "x"},
                                   {"content-type", "application/grpc"}}));
   }
-  // Until the other end is closed.
+  // Waits until the connection is closed and returns the cause.
   std::optional<Cause> cause() {
     const TimePoint limit = monotonic_now() + std::chrono::seconds(20);
     while (causes_.empty() && monotonic_now() < limit) io_.run_one_for(milliseconds(100));
@@ -75,7 +75,7 @@ TEST_F(ClosingTest, AFrameWasBegunAndNotFinished) {
   EXPECT_EQ(cause(), Cause::frame_unfinished);
 }
 
-// Its farewell cannot be written then.
+// The front cannot write its GOAWAY after the client has gone.
 TEST_F(ClosingTest, AClientThatIsGoneByThenDidTheSame) {
   connect({});
   say("GET / HTTP/1.1\r\n\r\n");

@@ -1,4 +1,4 @@
-// What one client's bytes become.
+// Handling of the bytes of one client.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ TEST_F(ConversationTest, AStopInPiecesIsOneAndItsPaddingIsNone) {
   EXPECT_EQ(desk.asked[0].first, "ab");
 }
 
-// RFC 9113, 8.1: trailers may end a request; no client for gRPC sends any, but proxies may.
+// RFC 9113, 8.1: trailers may end a request; gRPC clients send none, but proxies may.
 TEST_F(ConversationTest, TrailersEndARequest) {
   open();
   const auto trailers_of_request = [this](std::uint32_t stream) {
@@ -208,7 +208,7 @@ TEST_F(ConversationTest, WithoutAWayToGrpcOnlyStopsAreServed) {
   EXPECT_THAT(desk.asked, SizeIs(1));
 }
 
-// gRPC ends in two steps, and so does the front, whose last stream covers its own calls.
+// gRPC ends in two steps, and so does the front; the last stream in its GOAWAY covers the front's own calls too.
 TEST_F(ConversationTest, GrpcsFarewellIsTheFronts) {
   open();
   say(call(1, "/forward"));
@@ -247,7 +247,7 @@ TEST_F(ConversationTest, AnEndIsAnnouncedAndCallsThatStillComeMayBeMadeElsewhere
   EXPECT_EQ(fault(), "");
 }
 
-// grpc-go names a stream of its own in its GOAWAY, which RFC 9113, 6.8 does not allow.
+// grpc-go names one of its own streams in its GOAWAY, which RFC 9113, 6.8 does not allow.
 TEST_F(ConversationTest, AClientThatTakesItsLeaveWronglyIsNoFault) {
   open();
   say(call(1, "/forward"));
@@ -257,7 +257,7 @@ TEST_F(ConversationTest, AClientThatTakesItsLeaveWronglyIsNoFault) {
   EXPECT_EQ(fault(), "");
 }
 
-// Found by the fuzzer: the library had something to write again.
+// Found by the fuzzer: the library wanted to write again after the end.
 TEST_F(ConversationTest, WhatIsOverStaysOver) {
   open();
   say(goaway(0, ErrorCode::no_error, ""));
@@ -277,7 +277,7 @@ TEST_F(ConversationTest, AFaultAfterAFarewellIsOne) {
   EXPECT_NE(fault(), "");
 }
 
-// Its client may make it again: gRPC has not seen it.
+// The client may repeat the call, because gRPC has not seen it.
 TEST_F(ConversationTest, WhatGrpcDidNotSeeIsRefused) {
   open();
   say(call(1, "/forward"));

@@ -1,4 +1,4 @@
-// What a connection may cost before it waits or ends.
+// Limits on the cost of a connection before it has to wait or is closed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// Each flood, and what its connection has cost by then.
+// A kind of flood, and the number of frames after which its connection must have ended.
 struct Flood {
   const char* name;
-  std::size_t bound;  // frames at most
+  std::size_t bound;  // most frames
   std::string (*frames)(int number);
 };
 void PrintTo(const Flood& flood, std::ostream* out) { *out << flood.name; }
@@ -67,7 +67,7 @@ std::string unwanted_call(int number) {
   return frame(FrameType::headers, kEndHeaders | kEndStream, stream,
                encode_without_table(headers_of_call("/unwanted")));
 }
-// As many as come in one reading.
+// Returns as many calls as one read delivers.
 std::string unwanted_burst(int number) {
   std::string burst;
   for (int i = 0; i < 100; ++i) burst += unwanted_call(100 * number + i);
@@ -84,7 +84,8 @@ std::string continued(int number) {
 std::string call_in_pieces() {
   return frame(FrameType::headers, kEndHeaders, 1, encode_without_table(headers_of_call("/forward")));
 }
-// A call that is over by its answer, and is sent still; the first two cost nothing, as far as one window goes.
+// Returns a call that ends with its answer, then frames that still arrive for the call; up to one stream window these
+// are not charged as control frames.
 std::string behind_its_end(int number, const std::string& frames) {
   const std::string call =
       frame(FrameType::headers, kEndHeaders | kEndStream, 1, encode_without_table(headers_of_call("/unwanted")));
@@ -110,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Flood{"unwanted_calls", 400, unwanted_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
                     Flood{"continuation", 10, continued}));
 
-// A dashboard with many streams acknowledges each message, on its stream and on the connection.
+// A dashboard with many streams acknowledges each message, on the stream and on the connection.
 TEST_F(ConversationTest, WhatAcknowledgesMessagesIsNoFlood) {
   open();
   say(call(1, "/forward"));
@@ -128,7 +129,7 @@ TEST_F(ConversationTest, WhatAcknowledgesMessagesIsNoFlood) {
   EXPECT_TRUE(conversation->fault()) << "nothing was sent any more";
 }
 
-// The rest of the connection does not suffer, up to 128 KiB.
+// Up to 128 KiB of headers, the other calls of the connection are not affected.
 TEST_F(ConversationTest, HeadersThatAreTooLongAreRefusedByThemselves) {
   open();
   const auto long_call = [this](std::uint32_t stream, std::size_t size) {
@@ -151,7 +152,7 @@ TEST_F(ConversationTest, HeadersThatAreTooLongAreRefusedByThemselves) {
   EXPECT_THAT(desk.judged, IsEmpty());
 }
 
-// Three bytes of the block are a field of 38 bytes: the size counts, and the number.
+// One byte of the block stands for a field of 38 bytes: the unpacked size and the number of fields count.
 TEST_F(ConversationTest, HeadersCostWhatTheyAreUnpacked) {
   open();
   const auto bomb = [this](std::uint32_t stream) {
@@ -161,7 +162,7 @@ TEST_F(ConversationTest, HeadersCostWhatTheyAreUnpacked) {
   };
   std::uint32_t stream = 1;
   for (; conversation->not_before() <= now && stream < 100; stream += 2) say(bomb(stream));
-  EXPECT_LE(stream, 2u * 9);  // of half a megabyte each, and not of 16 KiB
+  EXPECT_LE(stream, 2u * 9);  // calls of half a megabyte each, instead of 16 KiB
   EXPECT_THAT(desk.judged, IsEmpty());
   EXPECT_EQ(find(headers_of(heard().at(0)), "grpc-status"), "8");
 }
@@ -200,7 +201,7 @@ TEST_F(ConversationTest, ConnectionsOfOneSourceShareItsBudget) {
   EXPECT_THAT(fault(), HasSubstr("more frames a second"));
 }
 
-// As with a token, from another machine: the address differs, the caller does not.
+// The caller uses the same token from another machine: the address differs, the caller does not.
 TEST_F(ConversationTest, ACallerHasOneBudgetWhateverItsConnections) {
   desk.caller = "token anna";
   open();
@@ -211,7 +212,7 @@ TEST_F(ConversationTest, ACallerHasOneBudgetWhateverItsConnections) {
     say(call(stream, "/forward"));
     stream += 2;
   }
-  EXPECT_LT(stream, 2u * 50);  // what is spared for a stop
+  EXPECT_LT(stream, 2u * 50);  // the guaranteed part for a stop
   EXPECT_GT(conversation->not_before(), now + seconds(1));
   EXPECT_EQ(fault(), "");
 }
@@ -224,7 +225,7 @@ TEST_F(ConversationTest, WhomNothingNamesPaysForNobodyElse) {
   EXPECT_LE(conversation->not_before(), now);
 }
 
-// A source that uses up everything over other connections.
+// Another connection of the same source uses up the whole budget.
 TEST_F(ConversationTest, WhoDoesLittleIsNotHeldBackByOthersOfItsSource) {
   open();
   for (int number = 0; number < 10; ++number) {

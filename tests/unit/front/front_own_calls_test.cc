@@ -1,5 +1,5 @@
-// Calls that the front answers itself: their requests in pieces, and their answers as the client's windows let them out
-// (RFC 9113, 5.2 and 6.9).
+// Calls that the front answers itself: requests in pieces, and answers that are limited by the client's windows (RFC
+// 9113, 5.2 and 6.9).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,9 +27,9 @@ std::string data_in(const std::vector<Seen>& seen) {
 
 class OwnCallsTest : public ConversationTest {
  protected:
-  // A call whose request is whole.
+  // Sends a complete call to /ask.
   void ask(std::uint32_t stream) { say(call(stream, "/ask") + message(stream, "?")); }
-  // What a client's calls receive; how much more the client may send is left out.
+  // Returns the frames that a client receives, without window updates.
   std::vector<Seen> heard() {
     std::vector<Seen> seen = ConversationTest::heard();
     std::erase_if(seen, [](const Seen& one) { return one.type == FrameType::window_update; });
@@ -99,14 +99,14 @@ TEST_F(OwnCallsTest, TheWindowOfTheStreamHoldsMessagesBackAndNotTheHead) {
   EXPECT_EQ(seen[1].flags, kEndHeaders | kEndStream);
 }
 
-// 6.9.2: what is open changes by the difference, below zero too.
+// RFC 9113, 6.9.2: open windows change by the difference, and may become negative.
 TEST_F(OwnCallsTest, ANewFirstWindowChangesThoseThatAreOpen) {
   open();
   say(settings_frame({{4, 4}}));
   ask(1);
   answer(0, {.body = "stands"});
   EXPECT_EQ(data_in(heard()), "\0\0\0\0"s);
-  say(settings_frame({{4, 2}}));  // two below zero now
+  say(settings_frame({{4, 2}}));  // the window is now -2
   say(window_update(1, 3));
   EXPECT_EQ(data_in(heard()), "\6"s);
   say(settings_frame({{4, 100}}));
@@ -153,7 +153,7 @@ TEST_F(OwnCallsTest, ATooLongRequestIsRefusedAndTheConnectionGoesOn) {
   EXPECT_THAT(desk.asked, SizeIs(1));
 }
 
-// The desk refuses it, so that it is counted and noted as other refusals are.
+// The desk refuses such a request, so the refusal is counted and logged like any other.
 TEST_F(OwnCallsTest, ThatThereIsNotOneWholeMessageIsForTheDesk) {
   open();
   say(call(1, "/ask") + frame(FrameType::data, kEndStream, 1, "\0\0\0\0\2a"s));

@@ -1,4 +1,4 @@
-// What is begun and not finished: slow is allowed, endless is not.
+// Unfinished frames and calls: slow progress is allowed, endless waiting is not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using testing::SizeIs;
 
 class FrontPaceTest : public ConversationTest {
  protected:
-  // Bytes come, each after so long; the front looks four times a second.
+  // Sends the bytes one by one, `each` apart; the front checks its time limits every 250 ms.
   void trickle(const std::string& bytes, milliseconds each) {
     for (std::size_t at = 0; at < bytes.size() && !conversation->over(); ++at) {
       say(bytes.substr(at, 1));
@@ -42,7 +42,7 @@ TEST_F(FrontPaceTest, AByteASecondEndsAfterTenSeconds) {
   EXPECT_EQ(conversation->fault()->cause, Cause::frame_unfinished);
 }
 
-// However long the connection has been there, or the machine.
+// The limit counts from the first byte of the frame, however old the connection is.
 TEST_F(FrontPaceTest, ATimeBeginsWithWhatIsBegun) {
   now += seconds(1'000);
   open();
@@ -55,7 +55,7 @@ TEST_F(FrontPaceTest, ATimeBeginsWithWhatIsBegun) {
   EXPECT_THAT(desk.asked, SizeIs(1));
 }
 
-// The library is silent about headers of a call that is over.
+// The library reports no headers for a call that has ended.
 TEST_F(FrontPaceTest, IgnoredHeadersAreNotAwaited) {
   open();
   say(call(1, "/refused", true));
@@ -72,7 +72,7 @@ TEST_F(FrontPaceTest, ASlowUploadThatGoesOnSucceeds) {
   for (std::size_t at = 0; at < body.size(); at += 500) {
     const bool last = at + 500 >= body.size();
     const std::string frames = frame(FrameType::data, last ? kEndStream : 0, 1, body.substr(at, 500));
-    say(frames.substr(0, frames.size() / 2));  // readings do not end where frames do
+    say(frames.substr(0, frames.size() / 2));  // reads do not end at frame boundaries
     pass(seconds(3));
     say(frames.substr(frames.size() / 2));
     passed_on();
@@ -106,7 +106,7 @@ TEST_F(FrontPaceTest, AnIdleStreamIsNotConcerned) {
   EXPECT_EQ(conversation->calls(), 2u);
 }
 
-// gRPC does not take what came, so the client cannot go on.
+// gRPC does not accept the data, so the client cannot continue.
 TEST_F(FrontPaceTest, WhomGrpcHoldsBackIsNotSlow) {
   open();
   say(call(1, "/forward") + frame(FrameType::data, 0, 1, "\0\0\x10\0\0"s));
@@ -115,7 +115,7 @@ TEST_F(FrontPaceTest, WhomGrpcHoldsBackIsNotSlow) {
     say(frame(FrameType::data, 0, 1, std::string(8'190, 'x')));
     passed_on();
   }
-  say(frame(FrameType::data, 0, 1, std::string(11, 'x')));  // one more than gRPC's window
+  say(frame(FrameType::data, 0, 1, std::string(11, 'x')));  // one byte more than gRPC's window
   passed_on();
   pass(seconds(60));
   EXPECT_THAT(only(FrameType::headers, heard()), IsEmpty());

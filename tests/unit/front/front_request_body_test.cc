@@ -1,4 +1,4 @@
-// The messages of a request, whole or in pieces, plain or compressed, and within bounds.
+// Messages of a request: whole or in pieces, plain or compressed, and within bounds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -13,7 +13,7 @@ namespace {
 using namespace std::string_literals;
 
 constexpr std::size_t kMost = 100'000, kAll = 150'000;
-enum Format { gzip = 15 + 16, deflate = 15 };  // as zlib's windowBits tell them apart
+enum Format { gzip = 15 + 16, deflate = 15 };  // values of zlib's windowBits
 
 std::string compressed(const std::string& text, Format format) {
   z_stream stream{};
@@ -33,7 +33,7 @@ std::string compressed(const std::string& text, Format format) {
 
 class RequestBodyTest : public testing::Test {
  protected:
-  // gRPC's code of the refusal; 0: none.
+  // Returns the gRPC code of the refusal; 0 if the bytes were accepted.
   int take(RequestBody& body, const std::string& bytes) {
     const auto refusal = body.take(bytes, out);
     return refusal ? refusal->code : 0;
@@ -69,14 +69,14 @@ TEST_F(RequestBodyTest, CompressedOnesComeOutPlain) {
   }
 }
 
-// As .NET sends an empty message with gzip.
+// .NET sends an empty message with gzip like this.
 TEST_F(RequestBodyTest, AnEmptyMessageMayCallItselfCompressed) {
   RequestBody body("gzip", kMost, all);
   EXPECT_EQ(take(body, "\1\0\0\0\0"s), 0);
   EXPECT_EQ(out, "\0\0\0\0\0"s);
 }
 
-// Others have taken all there is.
+// Other requests have taken all the shared room.
 TEST_F(RequestBodyTest, ACompressedStopFindsRoom) {
   Holding others(all);
   others.take(kAll);
@@ -85,7 +85,7 @@ TEST_F(RequestBodyTest, ACompressedStopFindsRoom) {
   EXPECT_EQ(take(body, compressed(std::string(2'000, 'x'), gzip)), 8);
 }
 
-// A megabyte of zeros is a thousand bytes.
+// A megabyte of zeros compresses to a thousand bytes.
 TEST_F(RequestBodyTest, ABombIsRefusedBeforeItIsUnpacked) {
   RequestBody body("gzip", kMost, all);
   EXPECT_EQ(take(body, compressed(std::string(1 << 20, '\0'), gzip)), 8);

@@ -1,4 +1,4 @@
-// The front on real descriptors: who is served in full.
+// The front on real descriptors: which sources are served in full.
 #include "server/front/front.h"
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ using testing::SizeIs;
 
 class FrontTest : public testing::Test {
  protected:
-  // A client that has sent its first call. What it receives is not looked at.
+  // Returns a client that has sent its first call; the answers are never read.
   Descriptor client_with_a_call() {
     std::array<int, 2> ends{};
     EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()), 0);

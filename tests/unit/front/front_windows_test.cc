@@ -1,4 +1,4 @@
-// What each side lets the other send (RFC 9113, 5.2), and in which order answers go out.
+// Amount of data that each side lets the other send (RFC 9113, 5.2), and the order in which answers are sent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST_F(FrontWindowsTest, TheClientsWindowHoldsGrpcBackAndNotAStop) {
     for (const Seen& one : given) {
       if (one.stream == 1) told += number_at(one.payload, 0);
     }
-    // 32 KiB may be underway, and what was allowed since.
+    // At most 32 KiB, plus what the windows have allowed since, may be in flight.
     if (32'768 + told < (static_cast<std::size_t>(i) + 1) * 10'000) break;
     grpc_says(frame(FrameType::data, 0, 1, std::string(10'000, 'x')));
     delivered += data_bytes(heard());
@@ -59,7 +59,7 @@ TEST_F(FrontWindowsTest, AStopIsAnsweredAheadOfADownload) {
   EXPECT_EQ(seen.at(0).stream, 3u);
 }
 
-// Otherwise gRPC's session would count bytes that gRPC never sent, until it ends at 2 GiB.
+// Otherwise gRPC's session would count bytes that gRPC never sent, and end at 2 GiB.
 TEST_F(FrontWindowsTest, TheFrontsOwnAnswersAreNotGrpcs) {
   open();
   say(call(1, "/forward") + window_update(0, 0x7000'0000) + settings_frame({{4, 0x7fff'0000}}));
@@ -75,7 +75,7 @@ TEST_F(FrontWindowsTest, TheFrontsOwnAnswersAreNotGrpcs) {
   EXPECT_THAT(only(FrameType::window_update, passed_on()), IsEmpty()) << "half a window is not used yet";
 }
 
-// What gRPC does not take is not requested from the client again.
+// Data that gRPC does not accept must not open the client's window again.
 TEST_F(FrontWindowsTest, GrpcHoldsTheClientBack) {
   open();
   say(call(1, "/forward") + frame(FrameType::data, 0, 1, "\0\0\x10\0\0"s));
@@ -94,7 +94,7 @@ TEST_F(FrontWindowsTest, GrpcHoldsTheClientBack) {
   EXPECT_EQ(data_bytes(passed_on()), sent - 65'535);
 }
 
-// Otherwise the connection's window would leak away.
+// Otherwise the connection's window would shrink with each call.
 TEST_F(FrontWindowsTest, WhatACallDidNotUseIsGivenBackToItsConnection) {
   open();
   std::size_t told = 0;
@@ -106,7 +106,7 @@ TEST_F(FrontWindowsTest, WhatACallDidNotUseIsGivenBackToItsConnection) {
     }
   }
   EXPECT_EQ(fault(), "");
-  EXPECT_GT(told, 4'000'000u);  // of five
+  EXPECT_GT(told, 4'000'000u);  // of five million
 }
 
 }  // namespace

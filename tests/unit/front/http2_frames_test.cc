@@ -1,4 +1,4 @@
-// Expected bytes are RFC 9113's layouts, typed by hand.
+// HTTP/2 frames; the expected bytes are RFC 9113's layouts, typed by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

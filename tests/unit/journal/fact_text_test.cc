@@ -1,4 +1,4 @@
-// Each fact is read from the journal's file as it was published, with all that it has.
+// Text of facts in the journal's file: each fact is read back exactly as it was published.
 #include "server/journal/fact_text.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// A disk that takes no more, for files of this process.
+// A full disk for the files of this process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 namespace axisgate::server {
 
-// While it lives, no file can be written beyond so many bytes: a write up to there is short, the next one fails with
-// EFBIG. Nothing is to be printed meanwhile: the output may be a file.
+// While a FileSizeLimit exists, no file can grow beyond `bytes`: a write that reaches the limit is short, the next one
+// fails with EFBIG. The test must not print meanwhile, because the output may be a file.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

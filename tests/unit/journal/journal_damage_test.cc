@@ -1,5 +1,5 @@
-// Damaged files of the journal: what is found at the start, what by verify(), and what only with a head noted
-// elsewhere.
+// Damaged files of the journal: damage that the start finds, that verify() finds, and that only a head noted elsewhere
+// shows.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,19 +33,19 @@ using disk_test::LosingVfs;
 using testing::HasSubstr;
 
 const std::string kFile = "/journal.sqlite", kLog = "/journal.sqlite-wal";
-// https://www.sqlite.org/fileformat2.html, sections 1.2 and 4.1, in bytes.
+// Sizes in bytes from https://www.sqlite.org/fileformat2.html, sections 1.2 and 4.1.
 constexpr std::size_t kPage = 4096, kLogHeader = 32, kFrameHeader = 24, kFrame = kFrameHeader + kPage;
 
-// The bytes of a journal's files, and what was acknowledged of it.
+// The bytes of a journal's files, and the rows that were acknowledged.
 struct Image {
   struct Group {
-    std::size_t log_size = 0;  // in bytes, when it was acknowledged
-    std::size_t rows = 0;      // with all before
+    std::size_t log_size = 0;  // in bytes, when the group was acknowledged
+    std::size_t rows = 0;      // including all earlier rows
   };
 
   std::string file, log;
   std::vector<Entry> rows;
-  std::vector<Group> groups;  // those in the log; before them, what was there without it
+  std::vector<Group> groups;  // the rows in the main file first, then each group in the log
   Head head;
 };
 
@@ -56,7 +56,8 @@ void append(Store& store, std::size_t rows, Image& image) {
   image.rows.insert(image.rows.end(), group.begin(), group.end());
 }
 
-// As a machine without power has it: rows that a checkpoint has written into the main file, and groups in the log.
+// Returns the files as a machine without power has them: rows that a checkpoint has written into the main file, and
+// groups in the log.
 Image image_of(std::size_t rows_in_file, const std::vector<std::size_t>& groups_in_log) {
   LosingDisk disk;
   const LosingVfs vfs(disk);
@@ -78,13 +79,13 @@ Image image_of(std::size_t rows_in_file, const std::vector<std::size_t>& groups_
 }
 
 enum class Outcome {
-  damaged,     // the start finds it, and moves the file aside
-  refused,     // the start finds it, and leaves the file where it is
+  damaged,     // the start finds the damage and moves the file aside
+  refused,     // the start finds the damage and leaves the file in place
   unreadable,  // verify() fails
-  bad_row,     // verify() names one
-  bad_index,   // verify() finds all rows good, and something else damaged
-  complete,    // all acknowledged rows are there
-  unnoticed,   // some are missing or changed, and nothing says so
+  bad_row,     // verify() names a bad row
+  bad_index,   // verify() finds all rows good, but other damage
+  complete,    // all acknowledged rows are present
+  unnoticed,   // rows are missing or changed, and verify() reports nothing
 };
 void PrintTo(Outcome outcome, std::ostream* out) {
   constexpr std::array kNames{"damaged", "refused", "unreadable", "bad_row", "bad_index", "complete", "unnoticed"};
@@ -93,7 +94,7 @@ void PrintTo(Outcome outcome, std::ostream* out) {
 
 struct Finding {
   Outcome alone = Outcome::unnoticed, with_head = Outcome::unnoticed;
-  std::size_t rows = 0;  // that are there, of the acknowledged ones and in their order
+  std::size_t rows = 0;  // acknowledged rows that are present, in their order
 };
 
 Outcome verified(Store& store, const std::optional<Head>& noted, bool complete) {
@@ -128,8 +129,8 @@ void change_byte(std::string& bytes, std::size_t at, unsigned bits) {
   bytes[at] = static_cast<char>(static_cast<unsigned char>(bytes[at]) ^ bits);
 }
 
-// The header of each frame, the byte before it, and every 499th else. One takes 0.4 ms: all, with
-// AXISGATE_EVERY_BYTE=1, take some minutes.
+// Returns the offsets to damage: the header of each frame, the byte before the header, and every 499th byte. Each takes
+// 0.4 ms; testing all bytes, with AXISGATE_EVERY_BYTE=1, takes some minutes.
 std::vector<std::size_t> places_in(const std::string& log) {
   const bool all = std::getenv("AXISGATE_EVERY_BYTE") != nullptr;
   std::vector<std::size_t> places;
@@ -142,7 +143,7 @@ std::vector<std::size_t> places_in(const std::string& log) {
   return places;
 }
 
-// What was acknowledged before that place is there. That the rest is missing shows only with a head.
+// Checks that the groups acknowledged before `place` are present, and that only a head shows that the rest is missing.
 void expect_groups_before(std::size_t place, const Image& whole, const Image& damaged) {
   std::size_t rows = 0;
   for (const Image::Group& group : whole.groups) rows = group.log_size <= place ? group.rows : rows;
@@ -166,14 +167,14 @@ TEST(JournalDamage, ALogThatIsCutOrChangedAnywhereKeepsTheGroupsBefore) {
   }
 }
 
-// With and without a log, which has newer versions of some pages.
+// A journal file with and without a log, which has newer versions of some pages.
 class JournalFileDamage : public testing::TestWithParam<std::size_t> {
  protected:
   const Image whole_ = GetParam() == 0 ? image_of(40, {}) : image_of(40, {GetParam()});
 };
 INSTANTIATE_TEST_SUITE_P(RowsInTheLog, JournalFileDamage, testing::Values(0, 4));
 
-// Complete it is where the log has the page.
+// The outcome is complete if the log has the page.
 TEST_P(JournalFileDamage, AnOverwrittenPageLosesNoRowUnnoticed) {
   int bad_index = 0;
   for (std::size_t page = 0; page < whole_.file.size() / kPage; ++page) {
@@ -198,7 +199,7 @@ TEST_P(JournalFileDamage, AnOverwrittenPageLosesNoRowUnnoticed) {
   }
 }
 
-// The header of each page, and every 97th byte.
+// Changes the header of each page and every 97th byte.
 TEST_P(JournalFileDamage, AChangedByteLosesNoRowUnnoticed) {
   for (std::size_t at = 0; at < whole_.file.size(); ++at) {
     if (at % kPage >= 12 && at % 97 != 0) continue;
@@ -220,7 +221,8 @@ TEST_P(JournalFileDamage, AShorterFileLosesNoRowUnnoticed) {
   }
 }
 
-// A new journal begins. A missing file is an empty one, too: the start makes it before SQLite opens it.
+// The start begins a new journal. A missing file is the same case: the start creates an empty file before SQLite opens
+// it.
 TEST_P(JournalFileDamage, AnEmptyFileIsNoticedByAHeadAlone) {
   Image damaged = whole_;
   damaged.file.clear();
@@ -231,7 +233,7 @@ TEST_P(JournalFileDamage, AnEmptyFileIsNoticedByAHeadAlone) {
 }
 
 // https://www.sqlite.org/fileformat2.html, section 1.6: a leaf of a table begins with 0x0D, and byte 4 has its number
-// of rows. The table of facts has none here.
+// of rows. The table of facts has no rows here.
 TEST(JournalDamage, ALeafThatHasLostItsLastRowIsNoticedByAHeadAlone) {
   const Image whole = image_of(40, {});
   std::size_t leaf = whole.file.size() - kPage;
@@ -244,7 +246,7 @@ TEST(JournalDamage, ALeafThatHasLostItsLastRowIsNoticedByAHeadAlone) {
   EXPECT_EQ(finding.with_head, Outcome::bad_row);
 }
 
-// The file that begins as `path` and was moved aside; empty: none.
+// Returns the file that was moved aside and whose name begins with `path`; empty if there is none.
 std::string moved_aside(const std::string& path) {
   for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(path).parent_path())) {
     if (file.path().string().starts_with(path + ".damaged-")) return file.path();

@@ -1,4 +1,4 @@
-// Statements are kept when they have run, and nothing of one run is left for the next.
+// Prepared statements, which are kept after each run. No binding or result of one run remains for the next.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A name that is erased is in no file of the journal any more, and the chain of its entries is as it was.
+// Erasure of a name from all files of the journal, which leaves the chain of entries unchanged.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,14 +38,14 @@ class JournalErase : public testing::Test {
   Database database() const { return *Database::open(path_, Database::Access::write); }
   void run(const std::string& sql) const { ASSERT_TRUE(database().run(sql.c_str())) << sql; }
 
-  // Waits until it is on the disk.
+  // Appends an entry and waits until it is on the disk.
   void append(std::string who) {
     journal_->append(
         {Entry{.kind = EntryKind::stop_requested, .device = "stage", .who = std::move(who), .body = "{}"}});
     (void)journal_->head();
   }
   std::vector<StoredEntry> entries() const { return *journal_->read(Filter(), 100); }
-  // Of all files beside the journal, and its own.
+  // Returns the bytes of all files in the journal's directory.
   std::string bytes() const {
     std::string all;
     for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(path_).parent_path())) {
@@ -58,7 +58,7 @@ class JournalErase : public testing::Test {
     const TimePoint limit = monotonic_now() + link_test::kPatience;
     while (!wanted()) {
       if (monotonic_now() > limit) return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two looks; the limit above decides
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two checks; the limit above decides
     }
     return true;
   }
@@ -68,8 +68,8 @@ class JournalErase : public testing::Test {
   std::unique_ptr<Journal> journal_;
 };
 
-// As if SQLite were built without its option SECURE_DELETE, which is the default of connections. Debian builds it with
-// it.
+// Acts like an SQLite built without the option SECURE_DELETE, which sets the default for connections. Debian's build
+// has it.
 class WithoutSecureDelete {
  public:
   WithoutSecureDelete() { sqlite3_auto_extension(hook()); }
@@ -84,7 +84,7 @@ class WithoutSecureDelete {
   static void (*hook())() { return reinterpret_cast<void (*)()>(&switch_off); }
 };
 
-// The file is as a daemon without secure_delete left it: with copies of names in freed bytes.
+// A daemon without secure_delete has left the file with copies of names in freed bytes.
 TEST_F(JournalErase, NoFileHasTheNameAnyMore) {
   const WithoutSecureDelete sqlite;
   std::mt19937 random(7);

@@ -1,4 +1,4 @@
-// The facts in the journal's file: over a restart they are those that were published, and no revision is used twice.
+// Facts in the journal's file: after a restart they are the published ones, and no revision is used twice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ using testing::IsEmpty;
 
 class JournalFactsTest : public testing::Test {
  protected:
-  // A run of the daemon: its journal, and the bus that it fills.
+  // A run of the daemon: its journal, and the bus that fills the journal.
   struct Run {
     explicit Run(const std::string& path, std::size_t facts_kept = EventBus::kFactsKept)
         : journal(*Journal::open(path)),
@@ -89,7 +89,7 @@ TEST_F(JournalFactsTest, AfterAnUncleanEndThereIsAGap) {
   EXPECT_EQ(now.bus.newest_revision(), 3 + FactTable::kUnwrittenMost);
 }
 
-// A run may be killed before it has written anything.
+// A run may be killed before it has written any fact.
 TEST_F(JournalFactsTest, EachRunBeginsBehindTheOneBefore) {
   { Run(path_).publish(3); }
   const std::uint64_t second = [&] { return Run(path_).bus.newest_revision() + 1; }();
@@ -161,7 +161,7 @@ TEST_F(JournalFactsTest, ARowThatIsNoFactIsLeftOut) {
   EXPECT_THAT(Run(path_).revisions(), ElementsAre(1, 3));
 }
 
-// As an earlier version has left it.
+// A journal as an earlier version left it.
 class UpgradedJournal : public JournalFactsTest, public testing::WithParamInterface<const char*> {};
 
 TEST_P(UpgradedJournal, KeepsItsEntriesAndTakesFacts) {

@@ -1,4 +1,4 @@
-// A power cut loses no row of the journal whose append() has returned success.
+// Power cuts, which must lose no row of the journal whose append() has returned success.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using disk_test::LosingVfs;
 
 const std::string kFile = "/journal.sqlite";
 
-// A machine with the daemon's journal on a disk of its own.
+// A machine with the daemon's journal on its own disk.
 class Machine {
  public:
   explicit Machine(LosingDisk::FileSyncs syncs = LosingDisk::FileSyncs::kept) : disk_(syncs), vfs_(disk_) {}
@@ -31,7 +31,8 @@ class Machine {
 
   tl::expected<Store, Unopened> open() { return Store::open(kFile, vfs_.name()); }
 
-  // Whether it was acknowledged. After a failure the program ends, so only its last rows were not.
+  // Returns true if the rows were acknowledged. The program ends after a failure, so only its last rows can lack
+  // acknowledgement.
   bool append(Store& store, std::size_t rows, std::size_t body_size = 40) {
     std::vector<Entry> group;
     for (std::size_t i = 1; i <= rows; ++i) group.push_back(journal_rows::entry(requested_.size() + i, body_size));
@@ -41,13 +42,13 @@ class Machine {
     return true;
   }
 
-  // As a commit does when the log has 1,000 pages. After it the log begins again at its first byte.
+  // Does what a commit does when the log has 1,000 pages. Afterwards the log starts again at its first byte.
   bool checkpoint() {
     auto database = Database::open(kFile, Database::Access::write, vfs_.name());
     return database && database->run("PRAGMA wal_checkpoint");
   }
 
-  // Whether the power was cut before the program ended. Otherwise it is cut then.
+  // Runs `program` and cuts the power as planned, or else at its end; returns true if the cut came before the end.
   template <class Program>
   bool run(Program program, const LosingDisk::Cut& cut) {
     disk_.plan(cut);
@@ -58,7 +59,8 @@ class Machine {
     return was_cut;
   }
 
-  // Empty: all acknowledged rows are there, all or none of the last append(), and nothing else; and rows can be added.
+  // Returns "" if all acknowledged rows are present, all or none of the last append(), nothing else, and a row can be
+  // added; otherwise the fault.
   std::string fault() {
     auto store = open();
     if (!store) return store.error().problem.message;
@@ -82,7 +84,8 @@ class Machine {
   std::size_t acknowledged_ = 0;
 };
 
-// Rows and groups, checkpoints before and after them, the end of a connection, which removes the log, and a new one.
+// Appends single rows and groups with checkpoints between them, closes the connection, which removes the log, and opens
+// another.
 void run_two_sessions(Machine& machine) {
   {
     auto store = machine.open();
@@ -94,8 +97,8 @@ void run_two_sessions(Machine& machine) {
   if (machine.append(*store, 1)) machine.append(*store, 1);
 }
 
-// Cuts at the first sync, at the second, and so on, until `cut_at` says that its program has ended before. With another
-// seed, something else survives of what was not synced.
+// Cuts the power at the first sync, at the second, and so on, until `cut_at` returns false: its program ended before
+// the cut. The seed decides which unsynced data survive.
 template <class CutAt>
 void at_each_sync(std::uint64_t seeds, CutAt cut_at) {
   bool was_cut = true;
@@ -144,7 +147,7 @@ TEST(JournalPowerCut, ManyTimesLosesNoAcknowledgedRow) {
   }
 }
 
-// SQLite's page cache has 2 MB: the log has most of the group before its commit, which then writes a checkpoint.
+// SQLite's page cache has 2 MB: most of the group is in the log before its commit, which then runs a checkpoint.
 void append_large_group(Machine& machine) {
   auto store = machine.open();
   if (store && machine.append(*store, 1)) machine.append(*store, 90, 50'000);
@@ -165,7 +168,7 @@ TEST(JournalPowerCut, InAGroupThatIsLargerThanTheCacheLosesNoAcknowledgedRow) {
   });
 }
 
-// These tests can fail.
+// Shows that these tests can fail.
 TEST(JournalPowerCut, LosesAcknowledgedRowsOnADiskThatIgnoresSyncs) {
   int lost = 0;
   at_each_sync(4, [&](const LosingDisk::Cut& cut) {

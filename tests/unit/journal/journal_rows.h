@@ -1,4 +1,4 @@
-// Rows for tests that damage a journal: each differs from all others.
+// Rows for tests that damage a journal; no two are equal.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 namespace axisgate::server::journal_rows {
 
-// Every third names a person for the first time.
+// Returns the row of that number. Every third row names a new person.
 inline journal::Entry entry(std::size_t number, std::size_t body_size = 40) {
   return {.kind = journal::EntryKind::motion_ended,
           .time = WallTime(std::chrono::seconds(number)),
@@ -29,7 +29,7 @@ inline std::vector<journal::Record> records_of(const std::vector<journal::Entry>
   return records;
 }
 
-// All that the chain of hashes covers.
+// Compares everything that the chain of hashes covers.
 inline bool same_but_for_names(const journal::Entry& one, const journal::Entry& other) {
   return one.kind == other.kind && one.time == other.time && one.boot_time == other.boot_time &&
          one.device == other.device && one.motion == other.motion && one.body == other.body;
@@ -39,7 +39,7 @@ inline bool same(const journal::Entry& one, const journal::Entry& other) {
   return same_but_for_names(one, other) && one.who == other.who;
 }
 
-// Whether the rows, newest first, are the first of `wanted`, or all.
+// Reports whether the rows, newest first, are the first rows of `wanted` or all of them.
 inline bool begin_as(const std::vector<journal::Entry>& wanted, const std::vector<journal::StoredEntry>& rows,
                      bool (*equal)(const journal::Entry&, const journal::Entry&)) {
   return rows.size() <= wanted.size() && std::equal(rows.rbegin(), rows.rend(), wanted.begin(),

@@ -1,4 +1,4 @@
-// The journal's file: what is appended is found again, and what was changed is found out.
+// The journal's file: appended entries are found again, and changes to them are detected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST_F(JournalStoreTest, AWholeChainIsGood) {
   EXPECT_EQ(verdict().fault, "");
 }
 
-// Without the newest row the index gives a wrong number of the last motion.
+// Without the newest row the index gives a wrong number for the last motion.
 TEST_F(JournalStoreTest, AnIndexThatLacksARowIsFoundBesideAGoodChain) {
   tamper(
       "PRAGMA writable_schema = ON; "
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
                               1}),
     [](const auto& one) { return std::string(one.param.name); });
 
-// Who can write the file can also compute all hashes again.
+// Anyone who can write the file can also compute all hashes again.
 TEST_F(JournalStoreTest, WhoComputesAllHashesIsFoundOutByAHeadThatWasNoted) {
   const Head noted = *Store::open_to_read(path_)->head();
   const auto rows = *Store::open_to_read(path_)->read({}, 100);
@@ -194,7 +194,7 @@ TEST_F(JournalStoreTest, WhoComputesAllHashesIsFoundOutByAHeadThatWasNoted) {
   EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
 }
 
-// A file of three segments and a little more; the first rows are a year older.
+// A file of three segments and a few rows more; the rows of the first segment are a year older.
 class DroppedSegmentsTest : public JournalStoreTest {
  protected:
   DroppedSegmentsTest() {
@@ -249,7 +249,7 @@ TEST_F(JournalStoreTest, AHeadOfAnotherFileIsNoneOfThisChain) {
   EXPECT_EQ(verdict(noted).first_bad, 1);
 }
 
-// A person can be erased: the chain has a number.
+// A person's name can be erased, because the chain contains only a number.
 TEST_F(JournalStoreTest, ErasingANameLeavesTheChain) {
   tamper("UPDATE person SET name = 'erased 1' WHERE name = 'unix anna'");
   EXPECT_FALSE(verdict().first_bad);

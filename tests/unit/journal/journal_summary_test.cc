@@ -1,4 +1,4 @@
-// What happened in a night, over journals that are written by hand.
+// Summary of a night, from journals that are written by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -260,7 +260,7 @@ TEST_F(SummaryTest, ALineThatThePresentDaemonDoesNotHaveIsNotDownForever) {
   EXPECT_THAT(night().losses.items, ElementsAre(loss("kept", kEvening - hours(9), std::nullopt)));
 }
 
-// The clock was set back after the first of them.
+// The clock was set back after the first entries.
 TEST_F(SummaryTest, WhatIsOutOfTheOrderOfTimeIsInTheOrderOfNumbers) {
   using enum EntryKind;
   write({daemon(kEvening + hours(3), daemon_started), link(kEvening + hours(4), "DOWN"),

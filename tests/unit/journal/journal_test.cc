@@ -1,4 +1,4 @@
-// The thread that writes the journal, and what it keeps of a device's events.
+// The thread that writes the journal, and the entries that a device's events leave in it.
 #include "server/journal/journal.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ bool comes_true(const std::function<bool()>& wanted) {
   const TimePoint limit = monotonic_now() + link_test::kPatience;
   while (!wanted()) {
     if (monotonic_now() > limit) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two looks; the limit above decides
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // between two checks; the limit above decides
   }
   return true;
 }
@@ -71,7 +71,7 @@ TEST_F(JournalTest, H45_ARefusingDiskIsReportedAndTriedAgain) {
   EXPECT_EQ(kept()[0].entry.kind, EntryKind::journal_failed);
 }
 
-// Some of them come while the first refusal is under way.
+// Further commits arrive while the first refusal is being handled.
 TEST_F(JournalTest, H45_ACommitAsTheDiskBeginsToRefuseIsAnswered) {
   for (int round = 0; round < 30; ++round) {
     const auto journal = *Journal::open(path_);
@@ -161,7 +161,7 @@ TEST_F(JournalTest, ALinkIsNotFollowed) {
 
 class DeviceEntriesTest : public JournalTest {
  protected:
-  // The bodies that events leave, oldest first, each behind its kind and caller.
+  // Returns the entries that `events` leave, oldest first, each as kind, caller and body.
   std::vector<std::string> left_by(const std::vector<stage::Event>& events) {
     {
       const auto journal = *Journal::open(path_);

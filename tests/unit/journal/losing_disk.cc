@@ -35,7 +35,7 @@ void DiskFile::sync() {
 }
 
 void DiskFile::cut_power(simulation::Random& random) {
-  // From none of them to all.
+  // Probability that an unsynced change survives, from 0 to 1.
   const double survival = static_cast<double>(random.between(0, 4)) / 4;
   for (std::size_t left = unsynced_.size(); left > 1; --left) {
     std::swap(unsynced_[left - 1], unsynced_[random.next() % left]);

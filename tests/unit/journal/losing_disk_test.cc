@@ -1,4 +1,4 @@
-// The disk of the tests that cut the power loses what it may lose, and nothing else.
+// The disk of the power cut tests, which loses only data that a real disk may lose.
 #include "tests/unit/journal/losing_disk.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 const std::string kOld(2 * kSector, 'o'), kNew(2 * kSector, 'n'), kNewer(2 * kSector, 'r');
 const std::string kNone = "no file";
 
-// What a file may hold after a cut, over many seeds.
+// Returns every content that a file may have after a cut, over many seeds.
 template <class Program>
 std::set<std::string> survivors(Program program) {
   std::set<std::string> found;

@@ -12,13 +12,13 @@ namespace {
 
 struct OpenFile;
 
-// What the connections to one file share, outside the disk.
+// State that the connections to one file share, outside the disk.
 struct Sharing {
   std::vector<OpenFile*> connections;
-  std::vector<std::unique_ptr<char[]>> memory;  // the regions of xShmMap
+  std::vector<std::unique_ptr<char[]>> memory;  // regions of xShmMap
 };
 
-// SQLite reserves the bytes of it, and calls xOpen before and xClose after all others.
+// SQLite allocates the bytes of an OpenFile, and calls xOpen before and xClose after all other methods.
 struct OpenFile : sqlite3_file {
   OpenFile(LosingDisk& its_disk, std::shared_ptr<DiskFile> its_file, Sharing& its_sharing)
       : sqlite3_file{}, disk(its_disk), file(std::move(its_file)), sharing(its_sharing) {
@@ -28,7 +28,7 @@ struct OpenFile : sqlite3_file {
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  // Whether `condition` holds of another connection to the file.
+  // Reports whether `condition` is true of another connection to the file.
   template <class Condition>
   bool any_other(Condition condition) const {
     return std::ranges::any_of(sharing.connections,
@@ -38,10 +38,10 @@ struct OpenFile : sqlite3_file {
   LosingDisk& disk;
   const std::shared_ptr<DiskFile> file;
   Sharing& sharing;
-  bool syncs_directory = false;  // with its next sync
+  bool syncs_directory = false;  // true if the next sync also syncs the directory
   int lock = SQLITE_LOCK_NONE;
   bool has_memory = false;
-  unsigned shared_slots = 0, exclusive_slots = 0;  // of the memory's locks, a bit each
+  unsigned shared_slots = 0, exclusive_slots = 0;  // a bit for each lock of the shared memory
 };
 
 OpenFile& open_file(sqlite3_file* file) { return *static_cast<OpenFile*>(file); }
@@ -90,7 +90,7 @@ int file_size(sqlite3_file* file, sqlite3_int64* size) {
   return result(open_file(file).disk);
 }
 
-// SQLite's five levels: https://www.sqlite.org/lockingv3.html, section 3.
+// SQLite's five lock levels: https://www.sqlite.org/lockingv3.html, section 3.
 int lock(sqlite3_file* file, int level) {
   OpenFile& one = open_file(file);
   if (one.lock >= level) return SQLITE_OK;
@@ -114,7 +114,7 @@ int check_reserved_lock(sqlite3_file* file, int* reserved) {
 
 int file_control(sqlite3_file*, int, void*) { return SQLITE_NOTFOUND; }
 
-// These two as SQLite's own VFS for Linux, which serves the daemon.
+// Both values are those of SQLite's own VFS for Linux, which the daemon uses.
 int sector_size(sqlite3_file*) { return 4096; }
 int device_characteristics(sqlite3_file*) { return SQLITE_IOCAP_POWERSAFE_OVERWRITE; }
 
@@ -180,7 +180,7 @@ constexpr sqlite3_io_methods kMethods{.iVersion = 2,
 
 struct LosingVfs::Machine {
   LosingDisk& disk;
-  std::map<std::string, Sharing> sharing{};  // of each file
+  std::map<std::string, Sharing> sharing{};  // by file name
 };
 
 namespace {
@@ -190,14 +190,15 @@ LosingVfs::Machine& machine(sqlite3_vfs* vfs) { return *static_cast<LosingVfs::M
 int open(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* opened_flags) {
   file->pMethods = nullptr;
   auto& [disk, sharing] = machine(vfs);
-  if (name == nullptr) return SQLITE_CANTOPEN;  // a temporary file, which the journal never needs
+  if (name == nullptr) return SQLITE_CANTOPEN;  // a null name is a temporary file, which the journal never needs
   if (!disk.has_power()) return SQLITE_IOERR;
   auto there = disk.find(name);
   const bool may_create = (flags & SQLITE_OPEN_CREATE) != 0;
   if (!there && !may_create) return SQLITE_CANTOPEN;
   auto* opened = new (file) OpenFile(disk, there ? there : disk.create(name), sharing[name]);
   opened->pMethods = &kMethods;
-  // As SQLite's own VFS for Linux: of these, the first sync also syncs the directory; of the main file, none does.
+  // Like SQLite's own VFS for Linux: the first sync of a log also syncs the directory, a sync of the main file never
+  // does.
   constexpr int kLogs = SQLITE_OPEN_MAIN_JOURNAL | SQLITE_OPEN_WAL | SQLITE_OPEN_SUPER_JOURNAL;
   opened->syncs_directory = may_create && (flags & kLogs) != 0;
   if (opened_flags != nullptr) *opened_flags = flags;
@@ -213,7 +214,7 @@ int remove(sqlite3_vfs* vfs, const char* name, int sync_directory) {
   return result(disk);
 }
 
-// An empty file counts as none, as with SQLite's own VFS for Linux.
+// An empty file counts as missing, as with SQLite's own VFS for Linux.
 int access(sqlite3_vfs* vfs, const char* name, int, int* there) {
   const auto found = machine(vfs).disk.find(name);
   *there = found && !found->bytes().empty();
@@ -227,7 +228,7 @@ int full_pathname(sqlite3_vfs*, const char* name, int size, char* out) {
 
 }  // namespace
 
-// Time and random numbers are the system's own.
+// Time and random numbers come from the system's own VFS.
 LosingVfs::LosingVfs(LosingDisk& disk)
     : machine_(std::make_unique<Machine>(Machine{disk})), vfs_(*sqlite3_vfs_find(nullptr)) {
   vfs_.iVersion = 2;

@@ -1,4 +1,4 @@
-// SQLite on a LosingDisk.
+// SQLite VFS on a LosingDisk.
 #pragma once
 
 #include <sqlite3.h>
@@ -9,12 +9,13 @@
 
 namespace axisgate::disk_test {
 
-// While it lives, a VFS by its name has the disk's files. Locks and the shared memory of WAL mode are the process's
-// own, so that several connections may use one file; they end with the connections. Without power everything fails with
-// SQLITE_IOERR. One at a time. Not thread safe, nor are its connections.
+// While a LosingVfs exists, SQLite reaches the disk's files through the VFS of its name. Locks and the shared memory of
+// WAL mode belong to the process, so several connections may use one file; they end with the connections. Without
+// power, every call fails with SQLITE_IOERR. Only one LosingVfs may exist at a time. Neither it nor its connections are
+// thread safe.
 class LosingVfs {
  public:
-  // The disk outlives it, and it outlives all connections.
+  // The disk must outlive the VFS, and the VFS must outlive all connections.
   explicit LosingVfs(LosingDisk& disk);
   ~LosingVfs();
   LosingVfs(const LosingVfs&) = delete;

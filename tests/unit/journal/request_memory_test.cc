@@ -29,7 +29,7 @@ RememberedRequest move_by(std::string identity, std::string id, std::string dige
           .moves = true};
 }
 
-// What was said of a request that came before.
+// Answers to requests whose ids were known.
 struct Answers {
   RequestMemory::OnKnown known() {
     return [this](const Result<Known>& one) { all.push_back(one); };
@@ -39,7 +39,7 @@ struct Answers {
 
 class RequestMemoryTest : public testing::Test {
  protected:
-  // unspecified: it is new, and may act.
+  // Returns true if the request is new and may act; otherwise false, with the reason if it was refused.
   std::pair<bool, Reason> begin(const RememberedRequest& request, std::string_view mark = "",
                                 TimePoint now = kMorning) {
     const auto begun = memory_.begin(request, mark, now, answers_.known());
@@ -50,7 +50,7 @@ class RequestMemoryTest : public testing::Test {
   bool is_new(const std::string& id, TimePoint now = kMorning) {
     return begin(move_by("unix anna", id), "", now).first;
   }
-  // From its coming to its end.
+  // Runs a request from its arrival to its end.
   void run(const std::string& id, std::uint64_t motion, TimePoint now = kMorning) {
     const RequestMemory::Key key{"unix anna", id};
     ASSERT_TRUE(is_new(id, now));
@@ -180,7 +180,7 @@ TEST_F(KeptRequestsTest, ANewFileIsANewMemory) {
   EXPECT_EQ(begun.error().reason, Reason::request_memory_lost);
 }
 
-// A machine that was off for a week has not forgotten: its clock had stopped.
+// A machine that was off for a week has forgotten nothing: its clock did not run.
 TEST_F(KeptRequestsTest, TheTimeBetweenTwoBootsDoesNotCount) {
   {
     const auto store = Store::open(path_);

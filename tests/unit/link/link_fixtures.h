@@ -1,4 +1,5 @@
-// What the tests of device/link share: an event loop that is awaited, a machine that records, a directory that goes.
+// Fixtures for the tests of device/link: an event loop with a time limit, a machine that records, a temporary
+// directory.
 #pragma once
 
 #include <fcntl.h>
@@ -23,14 +24,14 @@
 
 namespace axisgate::link_test {
 
-// Far longer than anything takes; only a failing test waits for it.
+// Time limit for waits, far longer than any needs; only a failing test reaches it.
 inline constexpr std::chrono::seconds kPatience{10};
 
 class EventLoop {
  public:
   Strand strand() { return boost::asio::make_strand(context_); }
 
-  // Runs handlers until `done` holds.
+  // Runs handlers until `done` returns true; returns false after kPatience.
   [[nodiscard]] bool run_until(const std::function<bool()>& done) {
     const TimePoint limit = monotonic_now() + kPatience;
     while (!done()) {
@@ -41,7 +42,7 @@ class EventLoop {
     return true;
   }
 
-  // Runs what is ready now.
+  // Runs the handlers that are ready now.
   void run_ready() {
     context_.restart();
     context_.poll();
@@ -51,7 +52,7 @@ class EventLoop {
   boost::asio::io_context context_{1};
 };
 
-// Answers each byte with itself where `echo` says so, and writes down what it receives.
+// Records what it receives, and writes each byte back if `echo` is true.
 class RecordingMachine : public LineMachine {
  public:
   explicit RecordingMachine(ByteLink& link) : link_(link) {}
@@ -93,7 +94,7 @@ class RecordingMachine : public LineMachine {
   std::vector<TimePoint> advanced;
 
  private:
-  // A shell that calls the machine from within the machine's own call breaks the seam's rule.
+  // Fails the test if a shell calls the machine from within one of the machine's own calls.
   class Inside {
    public:
     explicit Inside(RecordingMachine& machine) : machine_(machine) {
@@ -110,7 +111,7 @@ class RecordingMachine : public LineMachine {
   bool inside_ = false;
 };
 
-// What can be read from a non-blocking descriptor now.
+// Returns the bytes that can be read from a non-blocking descriptor now.
 inline std::string read_now(int descriptor) {
   std::string bytes;
   std::array<char, 4096> buffer;

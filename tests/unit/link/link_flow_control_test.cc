@@ -1,4 +1,4 @@
-// Flow control of a tty, as a Runner shows it to its machine: XOFF, and a modem line that the test plays.
+// Flow control of a tty as a Runner shows it to its machine: XOFF, and a modem line that the test simulates.
 #include <sys/ioctl.h>
 
 #include <string>
@@ -18,7 +18,7 @@ using link_test::read_now;
 using link_test::RecordingMachine;
 using link_test::send_now;
 
-// An XOFF from the device: what is written stays here, until it says XON or flow control is ignored.
+// After an XOFF from the device, written bytes stay here until it sends XON or flow control is ignored.
 TEST(RunnerOnATty, BytesThatXoffHoldsAreUnsent) {
   EventLoop loop;
   const link_test::TemporaryDirectory directory;
@@ -31,7 +31,7 @@ TEST(RunnerOnATty, BytesThatXoffHoldsAreUnsent) {
   runner.attach(machine);
   runner.start();
   ASSERT_TRUE(loop.run_until([&] { return machine.count("up") == 1; }));
-  // The kernel hands an XOFF over on a thread of its own: bytes are written one by one until one is held.
+  // The kernel processes an XOFF on its own thread, so bytes are written one by one until one is held.
   const auto hold = [&] {
     send_now(pty->master(), "\x13");
     return loop.run_until([&] {
@@ -57,7 +57,7 @@ TEST(RunnerOnATty, BytesThatXoffHoldsAreUnsent) {
   loop.run_ready();
 }
 
-// A pseudo terminal has no DSR, so the test plays it.
+// A pseudo terminal has no DSR, so the test simulates it.
 TEST(RunnerOnATty, IsHeldWhileDsrIsLowAndNotIgnored) {
   EventLoop loop;
   const link_test::TemporaryDirectory directory;

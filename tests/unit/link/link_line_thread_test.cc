@@ -54,7 +54,7 @@ TEST_F(WakefulnessTest, OneLateReplyEndsIt) {
   EXPECT_FALSE(wakefulness_.is_awake(now_));
 }
 
-// The bytes of one reply that come singly, or an axis number.
+// These bytes are later pieces of a reply, or an axis number.
 TEST_F(WakefulnessTest, WhatComesUnaskedKeepsNobodyAwake) {
   exchange(microseconds(40));
   now_ += std::chrono::seconds(1);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the kernel shows of an adapter, and a link to it as /dev/serial/by-id has.
+// The files that the kernel shows for an adapter, and a link to the adapter as in /dev/serial/by-id.
 class LowLatencyTest : public testing::Test {
  protected:
   LowLatencyTest() {

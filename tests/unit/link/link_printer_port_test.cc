@@ -1,4 +1,4 @@
-// A printer device, played by a FIFO: opened for writing alone, never read, closed without waiting.
+// A printer device, simulated by a FIFO: opened only for writing, never read, closed without waiting.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -19,7 +19,7 @@ using link_test::read_now;
 using link_test::RecordingMachine;
 using link_test::TemporaryDirectory;
 
-// A FIFO stands in for the device: it has no termios either, and takes bytes until it is full.
+// A FIFO replaces the device: it has no termios either, and takes bytes until it is full.
 class PrinterPort : public testing::Test {
  protected:
   void plug_in() {
@@ -88,7 +88,7 @@ TEST_F(PrinterPort, ALossThatTheKernelReportsIsHeardWithoutAWrite) {
   EXPECT_TRUE(loop_.run_until([&] { return machine_.count("down") == 1; }));
 }
 
-// What is left is not waited for.
+// Closing does not wait for the remaining bytes.
 TEST_F(PrinterPort, AFullLineIsClosedAtOnce) {
   plug_in();
   start();

@@ -187,7 +187,7 @@ TEST_F(PtyLineTest, BytesOfASuccessorAreItsOwn) {
   EXPECT_EQ(machine_.heard, (Heard{"up", "down", "up", "Q:\r\n"}));
 }
 
-// XOFF is sent like bytes, but nothing reports that it was written: like bytes whose writing is reported too late.
+// XOFF is sent like a byte but is not reported as written, so it resembles bytes whose writing is reported too late.
 TEST_F(PtyLineTest, BytesOfWhichNothingIsToldAreASuccessors) {
   Descriptor first = client();
   send_now(first.get(), "for the first\r\n");

@@ -23,7 +23,7 @@ using testing::Test;
 
 class RunnerTest : public Test {
  protected:
-  // Every opening makes a new pair and keeps its far end; refusals are used up first.
+  // Refuses as often as `refusals_` says, then opens a new socket pair and keeps its far end.
   OpenedLine open() {
     ++openings_;
     if (refusals_ > 0) {
@@ -231,7 +231,7 @@ TEST_F(RunnerTest, AfterShutdownTheMachineHearsNothing) {
   EXPECT_EQ(::recv(far(), rest.data(), rest.size(), 0), 0) << "the line is closed";
 }
 
-// Closing a port whose flow control holds bytes back would wait for them; and a held command must not run later.
+// Closing a port whose flow control holds bytes back would wait for them, and a held command must not run later.
 TEST(RunnerOnATty, ALineThatIsGivenUpDropsWhatItHasNotSent) {
   EventLoop loop;
   const link_test::TemporaryDirectory directory;
@@ -249,7 +249,7 @@ TEST(RunnerOnATty, ALineThatIsGivenUpDropsWhatItHasNotSent) {
     runner.post([&](TimePoint) { runner.write(piece); });
     return machine.count("down") == 1;
   }));
-  // What the master's own end of the pseudo terminal has taken, one page, cannot be called back.
+  // Up to one page, which the master's end of the pseudo terminal has already taken, cannot be withdrawn.
   EXPECT_LE(read_now(pty->master()).size(), 4096u);
 }
 
@@ -291,7 +291,7 @@ TEST(LineInsideTheProcess, HostTalksToADeviceAndMayOpenItAgain) {
   EXPECT_EQ(device.heard, (std::vector<std::string>{"up", "first", "down", "up", "second"}));
 }
 
-// Asks, and counts answers; after every hundredth it opens the line again.
+// Sends questions and counts answers; reopens the line after every hundredth answer.
 class AskingMachine : public LineMachine {
  public:
   AskingMachine(Runner& runner, std::function<void()> finished) : runner_(runner), finished_(std::move(finished)) {}

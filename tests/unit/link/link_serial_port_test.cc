@@ -67,7 +67,7 @@ TEST_F(SerialPortTest, NotASerialPort) {
 TEST_F(SerialPortTest, PermissionDeniedNamesTheGroup) {
   std::ofstream(settings_.path) << "";
   std::filesystem::permissions(settings_.path, std::filesystem::perms::none);
-  const bool root = ::geteuid() == 0;  // whom no permission stops
+  const bool root = ::geteuid() == 0;  // permissions do not stop root
   constexpr uid_t kNobody = 65534;
   if (root) {
     ASSERT_EQ(::seteuid(kNobody), 0);
@@ -105,7 +105,7 @@ TEST_F(SerialPortOnPtyTest, TakesAnyRate) {
   for (const int baud : {9600, 12345, 31250, 250000, 1500000, 4000000}) {
     settings_.baud = baud;
     const Descriptor port = open();
-    // As the other end sees it: a check of the port alone would only repeat what was set.
+    // The other end is checked, because the port itself would only repeat the settings.
     termios2 seen{};
     ASSERT_EQ(::ioctl(pty_->master(), TCGETS2, &seen), 0);
     EXPECT_EQ(seen.c_ospeed, static_cast<speed_t>(baud));
@@ -116,7 +116,7 @@ TEST_F(SerialPortOnPtyTest, TakesAnyRate) {
 TEST_F(SerialPortOnPtyTest, TakesTheOtherSettings) {
   settings_.flow = FlowControl::none;
   settings_.stop_bits = 2;
-  settings_.parity = Parity::even;  // which a pseudo terminal drops, as it has no bits to check
+  settings_.parity = Parity::even;  // ignored by a pseudo terminal, which has no bits to check
   const Descriptor port = open();
   EXPECT_EQ(mode_of(port).c_cflag & CRTSCTS, 0u);
   EXPECT_NE(mode_of(port).c_cflag & CSTOPB, 0u);
@@ -145,7 +145,7 @@ TEST(SerialPort, TheLineThatForbidsIsThatOfTheFlowControl) {
   }
 }
 
-// Of DTR/DSR the driver knows nothing.
+// The driver does not support DTR/DSR.
 TEST_F(SerialPortOnPtyTest, DtrDsrIsWithoutTheDriver) {
   settings_.flow = FlowControl::dtr_dsr;
   const Descriptor port = open();

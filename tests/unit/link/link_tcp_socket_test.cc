@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 class TcpSocketTest : public testing::Test {
  protected:
-  // What came of one attempt.
+  // Returns the result of one attempt to open.
   OpenedLine open(const TcpSettings& settings) {
     std::optional<OpenedLine> result;
     const Opener opener = tcp_opener(settings);
@@ -72,7 +72,7 @@ TEST_F(TcpSocketTest, ARefusedConnectionSaysThatTheLineMayBeTaken) {
 }
 
 TEST_F(TcpSocketTest, AnUnknownNameIsSaidToBeOne) {
-  const OpenedLine line = open({"no such host", 4001});  // a blank is in no name, so that no server need be asked
+  const OpenedLine line = open({"no such host", 4001});  // no name contains a blank, so no server is asked
   ASSERT_FALSE(line);
   EXPECT_EQ(line.error().message, "no such host is not known");
   EXPECT_THAT(line.error().hint, HasSubstr("spelling"));
@@ -152,7 +152,7 @@ TEST_F(TcpRunnerTest, ReopensWithANewConnection) {
   EXPECT_TRUE(up(2) && accepted());
 }
 
-// What the other end has not taken yet may be a command: it must not run when nobody waits for its answer any more.
+// Data that the other end has not taken may contain a command, which must not run once nobody waits for its answer.
 TEST_F(TcpRunnerTest, ALineThatIsGivenUpDropsWhatItHasNotSent) {
   start();
   ASSERT_TRUE(up() && accepted());
@@ -188,7 +188,7 @@ TEST_F(TcpRunnerTest, AStopThatAsksForALineBeingOpenedWaitsForThatAttempt) {
 
 TEST(OpenerOnThread, AnAttemptThatIsLetGoClosesWhatItOpensLater) {
   EventLoop loop;
-  // The thread's own, too: it may still be on its way out of wait() when this test has ended.
+  // Shared with the thread, which may still be leaving wait() when the test has ended.
   const auto gate = std::make_shared<std::latch>(1);
   std::array<int, 2> line{};
   ASSERT_EQ(::pipe2(line.data(), O_CLOEXEC | O_NONBLOCK), 0);

@@ -1,4 +1,4 @@
-// Serial servers on loopback, well and silent.
+// Serial servers on loopback: one that accepts, and one that is silent.
 #pragma once
 
 #include <arpa/inet.h>
@@ -12,7 +12,7 @@
 
 namespace axisgate::link_test {
 
-// Accepts when the test says so.
+// A server that accepts a connection when the test requests it.
 class SerialServer {
  public:
   explicit SerialServer(int backlog = 1) : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
@@ -35,7 +35,7 @@ class SerialServer {
   TcpSettings settings_;
 };
 
-// The kernel drops what comes to a listener whose queue is full, as the network does when nobody is there.
+// The kernel drops packets to a listener whose queue is full, as a network does when there is no host.
 class SilentHost {
  public:
   SilentHost() : server_(0) {

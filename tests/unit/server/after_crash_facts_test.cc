@@ -1,4 +1,4 @@
-// What a run that was killed has left open is ended in the journal, and as facts for watchers that resume.
+// End of the motions that a killed run left open: in the journal, and as facts for watchers that resume.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class AfterCrashFacts : public testing::Test {
                        .motion = motion,
                        .body = std::move(body)}});
   }
-  // With what the run before has written of its facts. `started`: as MotionRecord has it.
+  // Settles with the facts that the previous run wrote and `started`, the motions that its MotionRecord returns.
   void settle(std::vector<FactPointer> facts, const std::optional<StartedMotions>& started) {
     bus_ = std::make_unique<EventBus>([](std::function<void()>) {}, "now", FactsBefore{std::move(facts), 10});
     settle_what_was_left(journal_.get(), requests_, *bus_, [&](std::string_view) { return started; });
@@ -92,7 +92,7 @@ TEST_F(AfterCrashFacts, WithoutAFactItIsAsItsRequest) {
   EXPECT_EQ(ended(8).state, MotionState::unknown);
 }
 
-// The entry was written, and the daemon was killed before the fact was.
+// The daemon was killed after it had written the journal entry but before it wrote the fact.
 TEST_F(AfterCrashFacts, AnEndThatTheJournalHasIsAFact) {
   for (const stage::MotionId id : {7, 8, 9, 10})
     append(EntryKind::motion_requested, id, R"({"axes":[1],"kind":"move"})");

@@ -1,4 +1,4 @@
-// What a run finds of the requests that the run before, which was killed, left without an end.
+// Requests that the killed previous run left without an end, and their treatment by the next run.
 #include "server/devices/after_crash.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ StartedMotion started(stage::MotionId motion, MotionState state, std::string id 
   return {motion, state, "unix anna", std::move(id)};
 }
 
-// What a repeat of `left` is answered after the crash; nothing: it acts.
+// Returns the answer to a repeat of `left` after the crash; nullopt if the repeat is executed.
 std::optional<stage::Motion> answer_to_repeat(const RememberedRequest& left, const Started& started) {
   RequestMemory memory(MemoryBounds{}, "first", Duration::zero(), {{left}, 0});
   EventBus bus([](std::function<void()>) {});
@@ -71,7 +71,7 @@ TEST(AfterCrash, WithoutARecordNothingIsDoneAgain) {
   EXPECT_TRUE(answer_to_repeat(request_of("align-17", 12), std::nullopt));
 }
 
-// The first motion of the id was refused before its start, which left the id free.
+// The first motion with the id was refused before its start, so the id could be used again.
 TEST(AfterCrash, OfTwoMotionsOfOneIdTheSecondCounts) {
   StartedMotions two{{started(11, MotionState::failed), started(12, MotionState::running)}};
   for (const std::uint64_t in_journal : {12, 0}) {
@@ -84,7 +84,7 @@ TEST(AfterCrash, OfTwoMotionsOfOneIdTheSecondCounts) {
   EXPECT_FALSE(answer_to_repeat(request_of("align-17", 12), two)) << "it was not sent";
 }
 
-// Its row was not committed any more, but its caller may have been answered.
+// The motion's journal row was never committed, but the caller may have received an answer.
 TEST(AfterCrash, ANumberThatOnlyTheRecordHasIsAnswered) {
   const auto answer = answer_to_repeat(request_of("align-17", 0), StartedMotions{{started(12, MotionState::running)}});
   ASSERT_TRUE(answer);
@@ -92,7 +92,8 @@ TEST(AfterCrash, ANumberThatOnlyTheRecordHasIsAnswered) {
   EXPECT_EQ(answer->who, "unix anna");
 }
 
-// The record keeps the newest only. Without a journal no number is in it, so that one without a number may be any.
+// The record keeps only the newest motions. A request that has no motion number, because no journal was kept, may be
+// any of the dropped ones.
 TEST(AfterCrash, WhatTheRecordHasDroppedIsNotDoneAgain) {
   const StartedMotions dropped{{started(30, MotionState::succeeded, "align-30")}, 12};
   EXPECT_TRUE(answer_to_repeat(request_of("align-17", 12), dropped));
@@ -100,7 +101,7 @@ TEST(AfterCrash, WhatTheRecordHasDroppedIsNotDoneAgain) {
   EXPECT_TRUE(answer_to_repeat(request_of("align-17", 0), dropped));
 }
 
-// Its request has an entry of its own that it was refused, if it has an id.
+// A refused request has its own journal entry if it has a request id.
 TEST(AfterCrash, AMotionThatWasNotSentIsMarkedAsRefusedIfItsRequestIs) {
   const link_test::TemporaryDirectory directory;
   const std::string path = directory / "journal.sqlite";

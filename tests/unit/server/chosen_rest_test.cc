@@ -1,4 +1,4 @@
-// Where a job of the spool continues, when somebody has chosen a line.
+// Place at which a job of the spool continues after a person has chosen a line.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Z0 is set in the second of three parts, by its third line.
+// The second of three parts sets Z0 in its third line.
 constexpr std::string_view kFirst = "PA;PU1,1;\nPU2,2;\n", kSecond = "PU1,1;\nPU2,2;\n!ZO-10;\nPU3,3;\n";
 
 class ChosenRest : public spool_test::SpoolBed {
@@ -26,7 +26,7 @@ class ChosenRest : public spool_test::SpoolBed {
     job_.parts = {{"T1", kFirst.size()}, {"T2", kFirst.size() + kSecond.size()}, {"T1", 52}};
     go_to_part(job_, 1);
   }
-  // `sent`: bytes of the part, at least and at most; nothing: it is not known.
+  // `sent`: least and most bytes of the part that may have been sent; nullopt if unknown.
   std::string chosen(std::optional<rml1::WrittenRange> sent, std::uint64_t line) {
     job_.written.reset();
     if (sent) job_.written = rml1::WrittenRange{kFirst.size() + sent->least, kFirst.size() + sent->most};

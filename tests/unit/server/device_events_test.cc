@@ -53,7 +53,7 @@ TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
 }
 
-// Who is answered that a stop was obeyed, or that a latch is lifted, looks, and must not see what was before.
+// A caller who was informed that a stop was obeyed or a latch lifted must not read an older state afterwards.
 TEST_F(DeviceEventsTest, TheEndOfAStopAndALatchAreShownAtOnce) {
   stage::Stop stop{.id = 1, .axes = stage::AxisSet::all(), .state = stage::StopState::written, .late = true};
   tell(stage::StopChanged{stop});
@@ -64,7 +64,7 @@ TEST_F(DeviceEventsTest, TheEndOfAStopAndALatchAreShownAtOnce) {
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::state_at_once, DeviceEvents::Due::state_at_once));
 }
 
-// As in a loop of stops over ever new connections, none of which has a name.
+// The calls come from a loop of stops over new connections, none of which has a name.
 TEST_F(DeviceEventsTest, AFloodOfStopsIsToldOnce) {
   stage::Stop stop{.id = 1, .axes = stage::AxisSet::all()};
   for (int port = 40000; port < 40020; ++port) {
@@ -90,7 +90,7 @@ TEST_F(DeviceEventsTest, AStopIsLateOnceHoweverManyJoinIt) {
   EXPECT_EQ(bus_.newest_revision(), 2u);
 }
 
-// A setting is a transaction of lines: "execute of no axis" would say nothing.
+// A setting is a transaction of lines; the log must not say "execute of no axis".
 TEST_F(DeviceEventsTest, AMotionWithoutAxesNamesNone) {
   std::ostringstream text;
   const auto before = spdlog::default_logger();
@@ -122,7 +122,7 @@ TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {
   EXPECT_EQ(events_.motion_revision(2), 2u);
 }
 
-// However often they are read, and however long after the event: its clock is fixed once.
+// A motion's times are the same however often and late they are read: its clock is fixed once.
 TEST_F(DeviceEventsTest, TheTimesOfAMotionAreTheSameInAllItsFacts) {
   tell(motion(1, stage::MotionState::queued));
   const Moment clock = events_.motion_clock(1);
@@ -150,7 +150,7 @@ TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
   EXPECT_EQ(bus_.read(4, 1).facts.at(0)->device, "stage");
 }
 
-// What a device writes cannot clear the screen of a person who reads the log, nor add a line to it.
+// Text from a device can neither clear the screen of a person who reads the log nor add a line to the log.
 TEST_F(DeviceEventsTest, H42_ADevicesTextIsEscapedAndCappedInTheLog) {
   std::ostringstream log;
   const auto usual = spdlog::default_logger();

@@ -1,4 +1,4 @@
-// A device of a kind that is no stage: what every device is needs no controller of axes.
+// A device that is not a stage: the parts common to all devices need no axis controller.
 #include "server/devices/device.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using std::chrono::seconds;
 
-// A line that counts what is done to it.
+// A line that counts its starts and ends.
 class CountedLine : public Line {
  public:
   struct Counts {

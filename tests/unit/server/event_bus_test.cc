@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// Runs what it was given when the test says so.
+// Keeps the tasks it receives until the test calls run().
 class HeldTasks {
  public:
   Executor executor() {
@@ -159,7 +159,7 @@ Fact motion(stage::MotionId id, stage::MotionState state) {
   return stage::MotionChanged{changed};
 }
 
-// The run before published 1 to 3, of which 3 was not written, and 102 is the first of this run.
+// The previous run published 1 to 3, but 3 was not written; this run begins with 102.
 class EventBusAfterRestart : public ::testing::Test {
  protected:
   HeldTasks tasks_;

@@ -1,4 +1,4 @@
-// Which lines of a device the journal gathers, and to which entry they belong.
+// Lines of a device that the journal collects, and the entries to which they belong.
 #include "server/journal/exchanged_lines.h"
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ class ExchangedLinesTest : public testing::Test {
   TimePoint now_ = kRequested;
   std::uint64_t exchange_ = 0;
   ExchangedLines lines_;
-  std::vector<std::string> apart_;  // with an entry of their own
+  std::vector<std::string> apart_;  // lines with their own entry
 };
 
 TEST_F(ExchangedLinesTest, OfAMotionTheStartAndTheEndHaveEachLineOnce) {
@@ -138,7 +138,7 @@ TEST_F(ExchangedLinesTest, ALineAfterTheEndOfItsMotionIsApartWithItsNumber) {
   EXPECT_THAT(apart_, ElementsAre("motion 1 by unix anna: D:1S1000F10000R100: OK"));
 }
 
-// A stop in a barrier has no end of its own; probes belong to no exchange.
+// A stop in a barrier has no end event; probes belong to no exchange.
 TEST_F(ExchangedLinesTest, AStopWithoutAnEndIsClosedByWhatFollows) {
   write({.bytes = "L:1\r\n", .who = "unix bert", .lane = Lane::stop});
   on(stage::BytesWritten{.bytes = "?:CMD\r\n", .who = {}, .question = true});
@@ -152,7 +152,7 @@ TEST_F(ExchangedLinesTest, AStopWithoutAnEndIsClosedByWhatFollows) {
                                   "motion 0 by unix bert: L:3: (null)"));
 }
 
-// The !:S that closes an answer which could be a completion has the number of its exchange.
+// The !:S that closes an ambiguous answer, which could be a completion, has the number of its exchange.
 TEST_F(ExchangedLinesTest, WhatClosesAnAnswerIsNoLineOfItsOwn) {
   becomes(1, MotionState::queued);
   write({.bytes = "?:A\r\n", .who = {}, .motion = 1, .closed = true, .question = true});

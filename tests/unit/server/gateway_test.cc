@@ -27,7 +27,7 @@ stage::State state_of(const Gateway& gateway, std::string_view device) {
   return *gateway.find_stage(device)->newest_state().get().value;
 }
 
-// Waits for a condition that a device's strand brings about.
+// Waits until a condition that a device's strand brings about is true.
 template <class Condition>
 bool comes_true(Condition condition) {
   const TimePoint limit = monotonic_now() + kPatience;
@@ -38,7 +38,7 @@ bool comes_true(Condition condition) {
   return true;
 }
 
-// Questions that follow one another, each sent when its predecessor has been answered.
+// Consecutive questions, each sent after the previous answer.
 class Questions {
  public:
   Questions(Stage& device, int count) : device_(device), left_(count) { ask(); }
@@ -67,7 +67,7 @@ class Questions {
   int left_;
 };
 
-// A tty whose other end takes no byte, as when flow control says so for ever.
+// A tty whose other end takes no byte, as if flow control stopped it for ever.
 class StuckTty {
  public:
   StuckTty() : pty_(open_pty(directory_ / "tty")), held_(::open((directory_ / "tty").c_str(), O_RDWR | O_NOCTTY)) {

@@ -1,4 +1,4 @@
-// What a killed daemon leaves of the job that it sent.
+// The record that a killed daemon leaves of the job that it was sending.
 #include "server/devices/job_record.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using rml1::JobState;
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
-// Of two parts: 300 bytes, then 200.
+// A job of two parts: 300 bytes, then 200.
 rml1::Job job(rml1::JobNumber number = 7, JobState state = JobState::running) {
   return {.number = number,
           .name = "part.rml",
@@ -79,7 +79,7 @@ TEST_F(JobRecordTest, KeepsWhereItContinues) {
   EXPECT_EQ(open()->before()->from, 0u);
 }
 
-// The spool may have dropped the job by then.
+// The spool may have deleted the job by then.
 TEST_F(JobRecordTest, KeepsWhatTheLastJobLeaves) {
   rml1::Job last = job();
   last.name = std::string(100, 'n');
@@ -192,14 +192,14 @@ TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
   EXPECT_EQ(as_it_was_left(before, {7, JobState::tool_change, 400, 0}).setup.from, std::nullopt) << "of another part";
 }
 
-// The daemon was killed before it was in the spool.
+// The daemon was killed before the place was in the spool.
 TEST(JobAsItWasLeft, WhatWasPausedAtAPlaceThatIsNotKnown) {
   const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52, 0, 52, 52});
   EXPECT_EQ(left.state, JobState::paused_unknown);
   EXPECT_EQ(left.written, (rml1::WrittenRange{52, 52}));
 }
 
-// The mill was not surely sent what comes before the place that somebody has chosen.
+// The mill may not have received everything before the place that a person has chosen.
 TEST_F(JobRecordTest, AChosenPlaceThatIsNotInTheSpoolSaysNothingOfWhatWasSent) {
   rml1::Job lost = job();
   {
@@ -216,7 +216,7 @@ TEST_F(JobRecordTest, AChosenPlaceThatIsNotInTheSpoolSaysNothingOfWhatWasSent) {
   EXPECT_EQ(left.written, (rml1::WrittenRange{10, 52}));
 }
 
-// That in the spool is of an earlier pause.
+// The place in the spool is from an earlier pause.
 TEST(JobAsItWasLeft, WhatWasPausedAtAnotherPlaceThanTheOneThatIsKnown) {
   rml1::Job before = job();
   before.setup.from = rml1::Place{20, 2, 5};
@@ -345,7 +345,7 @@ TEST(JobOfTheSpool, HasItsPlaceInTheQueue) {
   EXPECT_EQ(job_of(spooled(moved)).rank, -2);
 }
 
-// Where the record of what was sent is lost, no part is cut twice.
+// If the record of what was sent is lost, no part is cut twice.
 TEST(JobOfTheSpool, KnowsItsNextPart) {
   rml1::Job left = job();
   EXPECT_EQ(job_of(spooled(left)).parts, left.parts);

@@ -1,4 +1,4 @@
-// The lines about positions that the controller keeps, and what it reports about them. Typed from manual 127) to 136).
+// Lines about positions that the controller stores, and its answers about them. Typed from manual 127) to 136).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The state machines of a path's segment, a jog, a stop and the way out of HOST: every state with every event, typed
+// The state machines of a path's segment, a jog, a stop and the return to HOST: every state with every event, typed
 // from the tables in device/shrc203/README.md.
 #include <gtest/gtest.h>
 

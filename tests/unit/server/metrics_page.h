@@ -1,4 +1,4 @@
-// Readers of the metrics page: as Prometheus reads it, and as it does not.
+// Readers of the metrics page, some like Prometheus and some not.
 #pragma once
 
 #include <arpa/inet.h>
@@ -20,10 +20,10 @@
 
 namespace axisgate::server {
 
-// A connection to the page. Whatever it waits for, it waits 20 s at most.
+// A connection to the page. No wait lasts longer than 20 s.
 class PageReader {
  public:
-  // Not connected yet. With a receive buffer of that size, where it is not 0.
+  // Options of a reader that is not connected yet: size of the receive buffer in bytes, 0 for the system's default.
   struct Unconnected {
     int receive_buffer = 0;
   };
@@ -51,13 +51,13 @@ class PageReader {
     return ::send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
 
-  // Up to the end of the connection, with a pause after each piece.
+  // Reads until the connection ends, with a pause after each piece, and returns everything received.
   std::string read_to_end(std::chrono::milliseconds pause = {}) {
     while (read_more()) std::this_thread::sleep_for(pause);
     return received_;
   }
 
-  // One answer, with as many bytes of body as it announces, whatever comes after it; less if the connection ends.
+  // Reads one answer with the announced length of its body, ignoring later bytes; returns less if the connection ends.
   std::string read_answer() {
     std::size_t head = 0;
     while ((head = received_.find("\r\n\r\n")) == std::string::npos && read_more()) {
@@ -73,7 +73,7 @@ class PageReader {
     return answer;
   }
 
-  // Waits for another piece; false at the end of the connection.
+  // Waits for another piece; returns false at the end of the connection or after the time limit.
   bool read_more() {
     std::array<char, 16384> piece;
     const ssize_t size = ::read(socket_.get(), piece.data(), piece.size());
@@ -83,7 +83,7 @@ class PageReader {
     return true;
   }
 
-  // Whether the page closes the connection, without another byte.
+  // Reports whether the page closes the connection without sending another byte.
   bool is_ended() { return received_.empty() && !read_more() && !timed_out_; }
 
  private:
@@ -93,7 +93,7 @@ class PageReader {
   std::string received_;
 };
 
-// Requests /metrics and returns the answer, or what went wrong in its place.
+// Requests /metrics and returns the answer, or a text that says what went wrong.
 inline std::string metrics_page(int port) {
   PageReader reader(port);
   if (!reader.connected()) return "no connection";

@@ -27,7 +27,7 @@ using ::testing::StartsWith;
 constexpr const char* kGet = "GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n";
 constexpr const char* kHalf = "GET /metrics HTTP/1.1\r\nHost:";
 
-// Longer than what kernels keep for a reader with a small buffer.
+// More text than kernels buffer for a reader with a small receive buffer.
 const std::string kLongText = std::string(8 * 1024 * 1024, '#') + "\n";
 
 class MetricsPageTest : public ::testing::Test {
@@ -46,7 +46,7 @@ class MetricsPageTest : public ::testing::Test {
 
   int port() const { return page_->address().port; }
 
-  // The answer to one request, after which the page closes the connection.
+  // Returns the answer to one request, after which the page closes the connection.
   std::string ask(const std::string& request) const {
     PageReader reader(port());
     reader.send(request);
@@ -113,7 +113,7 @@ TEST_F(MetricsPageTest, OtherPathsAndMethodsAreRefusedInASentence) {
   open();
   EXPECT_THAT(ask("GET / HTTP/1.0\r\n\r\n"), AllOf(StartsWith("HTTP/1.1 404 "), HasSubstr("Only /metrics is here")));
   EXPECT_THAT(ask("GET /metrics/all HTTP/1.0\r\n\r\n"), StartsWith("HTTP/1.1 404 "));
-  // Its body is no request.
+  // The body of the request must not be read as a request.
   const std::string post = ask("POST /metrics HTTP/1.1\r\nContent-Length: 37\r\n\r\n" + std::string(kGet));
   EXPECT_THAT(post, AllOf(StartsWith("HTTP/1.1 405 "), HasSubstr("Allow: GET, HEAD\r\n"), EndsWith("use GET.\n")));
   EXPECT_EQ(texts_, 0);
@@ -135,7 +135,7 @@ TEST_F(MetricsPageTest, AHeadMayBe8KiBAndNoLonger) {
   const std::string longest = begin + std::string(8192 - begin.size() - end.size(), 'x') + end;
   EXPECT_THAT(ask(longest), StartsWith("HTTP/1.1 200 "));
   EXPECT_THAT(ask("GET /metrics HTTP/1.0\r\nX: x\r\n" + longest.substr(begin.size() - 6)), StartsWith("HTTP/1.1 431 "));
-  // Although the rest of it is never read, its sender receives the answer.
+  // The sender receives the answer although the rest of the request is never read.
   EXPECT_THAT(ask(begin + std::string(100'000, 'x')), StartsWith("HTTP/1.1 431 "));
 }
 
@@ -148,7 +148,7 @@ TEST_F(MetricsPageTest, HalfSentRequestsCannotKeepAScrapeAway) {
   const TimePoint begin = monotonic_now();
   EXPECT_THAT(metrics_page(port()), EndsWith(text_));
   EXPECT_LT(monotonic_now() - begin, seconds(1));
-  // The first 46 of 302 made room.
+  // The first 46 of 302 connections were closed to make room.
   EXPECT_TRUE(kept.is_ended());
   for (std::size_t i = 0; i < 45; ++i) EXPECT_TRUE(half[i]->is_ended()) << i;
   ASSERT_TRUE(half[45]->send(" here\r\n\r\n"));
@@ -208,7 +208,7 @@ TEST_F(MetricsPageTest, AnAnswerHasItsTimeToBeTaken) {
   text_ = kLongText;
   open({.answer = milliseconds(50)});
   const auto readers = readers_that_sent(kGet, 1, 4096);
-  // To read all would take seconds.
+  // Reading everything would take seconds.
   EXPECT_LT(readers[0]->read_to_end(milliseconds(1)).size(), kLongText.size());
 }
 
@@ -218,7 +218,7 @@ TEST_F(MetricsPageTest, AReaderThatDoesNotCloseIsLeftAfterAWhile) {
   ASSERT_TRUE(reader.send("GET /metrics HTTP/1.0\r\n\r\n"));
   EXPECT_THAT(reader.read_to_end(), EndsWith(text_));
   const TimePoint end = monotonic_now() + seconds(10);
-  // Only to a closed connection can nothing be sent.
+  // Sending fails only on a closed connection.
   while (reader.send("x") && monotonic_now() < end) std::this_thread::sleep_for(milliseconds(5));
   EXPECT_FALSE(reader.send("x"));
 }

@@ -1,4 +1,4 @@
-// What the metrics page shows of mills.
+// Values of mills on the metrics page.
 #include "server/metrics/mill_metrics.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ class MillMetricsTest : public ::testing::Test {
     return one;
   }
 
-  // Comes to the state at this second.
+  // Changes the job to `state` at the time `at`.
   void change(JobState state, std::chrono::seconds at) { mill_.count(job(state), TimePoint(at)); }
 
   Metrics metrics_;
@@ -59,7 +59,7 @@ TEST_F(MillMetricsTest, JobsAreCountedByWhatBecameOfThem) {
   EXPECT_THAT(text, Not(HasSubstr("outcome=\"RUNNING\"")));
 }
 
-// Of those alone that were FED: an abort says nothing about the estimate.
+// Only jobs that became FED count: an abort says nothing about the estimate.
 TEST_F(MillMetricsTest, TheTimeOfAJobBesideItsEstimate) {
   change(JobState::running, 100s);
   change(JobState::aborted, 107s);
@@ -77,10 +77,10 @@ TEST_F(MillMetricsTest, TheTimeOfAJobBesideItsEstimate) {
 
 TEST_F(MillMetricsTest, BytesAndCommandsOfEachJob) {
   change(JobState::running, 0s);
-  mill_.count_written(0);  // what is written before the job
+  mill_.count_written(0);  // bytes written before the job
   mill_.count_written(6);
   mill_.count_written(20);
-  mill_.count_written(20);  // and after it
+  mill_.count_written(20);  // bytes written after the job
   change(JobState::running, 9s);
   mill_.count_written(6);
   const std::string text = page();

@@ -1,4 +1,4 @@
-// What a killed daemon leaves in the file of its motions, and what of it the next one believes.
+// The record that a killed daemon leaves of its motions, and the parts of it that the next daemon believes.
 #include "server/devices/motion_record.h"
 
 #include <gmock/gmock.h>
@@ -77,8 +77,8 @@ TEST_F(MotionRecordTest, WhatRanIsLeftWithTheLastLines) {
   EXPECT_THAT(unfinished()->last_lines, ElementsAre("Q:SP", "J:3+", "G:1"));
 }
 
-// What the controller received last is the newest line that was answered, or one written since: probes into a dead line
-// may have been lost. It may not remember a line that it refused.
+// The controller's last line is the newest answered line or one written since, because probes into a dead line may have
+// been lost. The controller may not remember a line that it refused.
 TEST_F(MotionRecordTest, TheLastLinesAreThoseSinceTheLastAnswer) {
   using Outcome = stage::ExchangeEnded::Outcome;
   start();
@@ -100,7 +100,7 @@ TEST_F(MotionRecordTest, TheLastLinesAreThoseSinceTheLastAnswer) {
   EXPECT_THAT(unfinished()->last_lines, ElementsAre("*IDN?", "?:CMD", "L:1", "G:1"));
 }
 
-// Nobody has seen the axis stop, until a handshake has found everything stationary.
+// The axis counts as moving until a handshake has found everything stationary.
 TEST_F(MotionRecordTest, AMotionThatEndedUnknownMayMove) {
   start();
   connect();
@@ -155,7 +155,7 @@ TEST_F(MotionRecordTest, NothingIsInheritedFromBeforeABoot) {
   EXPECT_FALSE(unfinished());
 }
 
-// Killed again before the axes stood.
+// The daemon was killed again before the axes were stationary.
 TEST_F(MotionRecordTest, ItIsKeptUntilItIsKnownWhatBecameOfIt) {
   start();
   connect();
@@ -200,7 +200,7 @@ TEST_F(MotionRecordTest, WhatIsNoRegularFileIsRefused) {
 }
 
 }  // namespace
-// The journal may not have it yet. One that waited only was not started, but may have been shown.
+// The journal may not have the number yet. A motion that only waited was not started, but may have been shown.
 TEST_F(MotionRecordTest, TheHighestNumberOfAMotionOutlivesRuns) {
   start();
   EXPECT_EQ(record_->last_motion(), 0u);
@@ -213,7 +213,7 @@ TEST_F(MotionRecordTest, TheHighestNumberOfAMotionOutlivesRuns) {
   EXPECT_EQ(record_->last_motion(), 12u);
 }
 
-// The journal may not have their ends, also not of those of a run before the last.
+// The journal may lack the ends of these motions, even of those before the previous run.
 TEST_F(MotionRecordTest, StartedMotionsOutliveRunsAndTheOldestAreDropped) {
   const auto run = [this](stage::MotionId id) {
     motion(MotionKind::move, AxisSet::of(1), MotionState::queued, id);

@@ -19,7 +19,7 @@ void expect_names(std::initializer_list<std::string_view> names) {
   for (const std::string_view expected : names) EXPECT_EQ(name(static_cast<Enum>(value++)), expected);
 }
 
-// Clients match on these: a changed name or order breaks them.
+// Clients depend on these names: a changed name or order breaks them.
 TEST(Names, OfReasonsStayAsPublished) {
   expect_names<Reason>({"UNSPECIFIED",       "INVALID_REQUEST", "UNKNOWN_DEVICE",    "UNKNOWN_AXIS",
                         "UNKNOWN_UNIT",      "OUT_OF_RANGE",    "OUTSIDE_TRAVEL",    "TOO_FAST",
@@ -76,7 +76,7 @@ TEST(AxisStatusBits, TellErrorsFromWarningsAndStates) {
   }
 }
 
-// Manual 5) Q:S: status 1 is normal, 4 is a scale error; 1000002 stands in a live unit's answer.
+// Manual 5) Q:S: status 1 is normal, 4 is a scale error; 1000002 is from a real unit's answer.
 TEST(AxisStatusBits, ReadTheManualsExamples) {
   EXPECT_FALSE(shows_error(0x1));
   EXPECT_TRUE(shows_error(0x4));

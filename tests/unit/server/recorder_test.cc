@@ -1,4 +1,4 @@
-// How a controller's events become lines.
+// Conversion of a controller's events to the lines of a recording.
 #include "device/stage/recording/recorder.h"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ class RecorderTest : public testing::Test {
   }
 
   const TimePoint began_{std::chrono::seconds(1000)};
-  std::int64_t now_ = 0;  // milliseconds since then
+  std::int64_t now_ = 0;  // milliseconds since began_
   std::vector<std::string> lines_;
   Recorder recorder_{{}, began_, [this](std::string line) { lines_.push_back(std::move(line)); }};
 };
@@ -92,7 +92,7 @@ TEST_F(RecorderTest, WhatComesByItselfHasLinesOfItsOwn) {
                                    "+0.100000 unexpected \"(a line that did not end)\""));
 }
 
-// A line that comes byte by byte reads like one that came at once.
+// A line that arrives byte by byte is recorded like a line that arrives at once.
 TEST_F(RecorderTest, BytesOfALineAreOnePiece) {
   write(1, "?:V\r\n", "lab");
   for (const std::string byte : {"V", "2", "\r"}) {
@@ -114,7 +114,7 @@ TEST_F(RecorderTest, BytesOfALineAreOnePiece) {
                   "0.010000 - +0.002000 < \"1\\r\" completion 1 < \"\\n\""));
 }
 
-// The core takes a line for whole at its CR, so that is when the piece came.
+// The core takes a line as complete at its CR, so the piece has the time of the CR.
 TEST_F(RecorderTest, APieceCameWithItsCarriageReturn) {
   write(0, "*IDN?\r\n");
   now_ = 3;
@@ -199,7 +199,7 @@ TEST_F(RecorderTest, ANumberFoundInAnAnswerIsNotToldTwice) {
   EXPECT_THAT(lines(), IsEmpty());
 }
 
-// Of a file begun now.
+// The header is that of a file begun now.
 TEST_F(RecorderTest, KnowsTheHeaderOfWhatIsToCome) {
   tell(LinkChanged{LinkState::up, "", AxisSet::of(2)});
   EXPECT_EQ(recorder_.header().axes, AxisSet::of(2));

@@ -1,4 +1,4 @@
-// The format of a recording: what is written is read again, byte for byte, and a slip names its line.
+// Format of a recording: written lines are read back byte for byte, and an error names its line.
 #include "device/stage/recording/recording.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The names of saved positions: numbers that are given and come back, and what outlives the daemon.
+// Names of saved positions: their numbers are assigned and freed again, and the names outlive the daemon.
 #include "server/devices/saved_positions.h"
 
 #include <gmock/gmock.h>
@@ -154,7 +154,7 @@ TEST_F(SavedPositionsTest, WhereTheControllerWasSeenToHoldIt) {
   EXPECT_EQ(positions_->find("stage", "a")->frame, saved.frame);
   positions_->held_in(saved, Frame{5, 6, {}, {}});
   EXPECT_EQ(positions_->find("stage", "a")->frame->device_epoch, 5u);
-  // By now the name means another one.
+  // The name now means another position.
   SavedPosition other = saved;
   other.coordinates[1] = 7;
   keep(other);
@@ -169,7 +169,7 @@ TEST_F(SavedPositionsTest, WhatCannotBeWrittenIsNot) {
   EXPECT_TRUE((*nowhere)->list("stage").empty());
 }
 
-// Nothing is left out silently, and nothing half read.
+// A bad line is an error: no line is skipped silently or read in part.
 TEST_F(SavedPositionsTest, ALineThatIsNoneIsNamed) {
   const std::string good = "stage a place 1 1:100,2:0 1800000000 2106001001 unix anna\n";
   for (const std::string& bad :

@@ -20,7 +20,7 @@ using ::testing::StartsWith;
 
 class ServerRecorderTest : public ::testing::Test {
  protected:
-  // One line of the recording, finished.
+  // Records one finished line.
   void record(const std::string& written) {
     recorder_.on_event(stage::BytesWritten{written, ++exchange_, "unix alice", Lane::question, {}}, monotonic_now());
     recorder_.flush();

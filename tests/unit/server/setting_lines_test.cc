@@ -1,4 +1,5 @@
-// Settings as lines, and answers as settings. Lines typed from manual 45) to 64), 90) to 101), answers from 9) to 42).
+// Settings as lines, and answers as settings. Lines are typed from manual 45) to 64), 90) to 101), answers from 9) to
+// 42).
 #include "device/shrc203/command/setting_lines.h"
 
 #include <gmock/gmock.h>

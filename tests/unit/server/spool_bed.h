@@ -1,4 +1,4 @@
-// What the tests of server/spool share: a spool in a directory that goes, and its files.
+// Fixture for the tests of server/spool: a spool in a temporary directory, and its files.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class SpoolBed : public testing::Test {
  protected:
   SpoolBed() { open(); }
 
-  // As a daemon that starts again.
+  // Opens the spool again, as a restarted daemon does.
   void open(const spool::Bounds& bounds = {}) {
     spool_.reset();
     auto opened = spool::Spool::open(folder_, bounds);
@@ -41,7 +41,7 @@ class SpoolBed : public testing::Test {
                                                const std::string& device = "mill") {
     return spool_->begin(device, new_job("part.rml", identity));
   }
-  // The whole upload, in pieces of three bytes.
+  // Uploads all bytes, in pieces of three.
   Result<spool::Job> upload(std::string_view bytes, const std::string& identity = "unix anna",
                             const std::string& device = "mill") {
     auto begun = begin(identity, device);
@@ -68,7 +68,7 @@ class SpoolBed : public testing::Test {
     text << std::ifstream(path(name)).rdbuf();
     return text.str();
   }
-  // Of the device's directory, in order.
+  // Returns the names of the files in the device's directory, in order.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_ + "/mill")) {

@@ -1,4 +1,4 @@
-// How many jobs on disk there may be, and what gives way.
+// Limits on the jobs on disk, and the jobs that are removed to make room.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// The bounds of one caller and of all are small, so that bytes can be counted.
+// The bounds of one caller and of all callers are small, so that bytes can be counted.
 class SpoolBounds : public SpoolBed {
  protected:
   SpoolBounds() { open(bounds()); }
@@ -138,7 +138,7 @@ TEST_F(SpoolBounds, OnlyOnesOwnGiveWayWhereOnesOwnAreTooMany) {
   EXPECT_THAT(ids(), ElementsAre(1, 3));
 }
 
-// Each of four people has one job at a time, and there are four places: an ended job gives way to each upload.
+// Four callers have one job each at a time, and there is room for four: each upload removes an ended job.
 TEST_F(SpoolBounds, UploadsAtTheSameTimeFindTheRoomThatTheyMake) {
   open({.jobs = 4});
   std::atomic<int> wrong = 0;

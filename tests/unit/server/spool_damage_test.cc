@@ -1,4 +1,4 @@
-// Jobs on a disk that is damaged, full, or somebody else's.
+// Jobs on a disk that is damaged, full, or writable by other users.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -20,7 +20,7 @@ using testing::StartsWith;
 
 class SpoolDamage : public spool_test::SpoolBed {
  protected:
-  // Job 1 stays good, job 2 is damaged; then the daemon starts again, twice.
+  // Uploads job 1, which stays good, and job 2, which `change` damages; then restarts the daemon twice.
   void damage(const std::function<void()>& change) {
     ASSERT_TRUE(upload("good"));
     ASSERT_TRUE(upload("abc"));
@@ -37,7 +37,7 @@ class SpoolDamage : public spool_test::SpoolBed {
     EXPECT_EQ(files(), left);
     EXPECT_EQ(upload("next")->id, 3u);
   }
-  // What the log says of a start.
+  // Opens the spool again, and returns the log lines of this start.
   std::string reopened() {
     const api::Log log;
     open();
@@ -207,7 +207,7 @@ TEST_F(SpoolDamage, OthersMayNotWriteThere) {
   }
 }
 
-// What works on a disk that takes no more than so many bytes of a file.
+// Runs `action` on a disk that takes at most `bytes` of a file, and returns its result.
 template <class Action>
 auto on_full_disk(rlim_t bytes, const Action& action) {
   const FileSizeLimit limit(bytes);
@@ -265,7 +265,7 @@ TEST_F(SpoolOnAFullDisk, FactsStayAsTheyAre) {
   expect_job_1();
 }
 
-// Its bytes cannot be unlinked.
+// The job's bytes cannot be unlinked.
 TEST_F(SpoolDamage, AJobThatCannotBeRemovedStaysListed) {
   ASSERT_TRUE(upload("good"));
   fs::remove(path("1.rml"));

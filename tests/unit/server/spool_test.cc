@@ -1,4 +1,4 @@
-// Jobs on disk: what is kept of them, and for how long.
+// Jobs on disk: their stored data, and how long they are kept.
 #include "server/spool/spool.h"
 
 #include <gmock/gmock.h>
@@ -210,7 +210,7 @@ TEST_F(Spool, IsUsedByManyThreads) {
       }
     }
   };
-  // Many, so that some are interrupted between looking for a job and opening its file.
+  // Many readers, so that some are interrupted between finding a job and opening its file.
   std::vector<std::thread> readers;
   for (int i = 0; i < 8; ++i) readers.emplace_back(read);
   std::thread anna(write, "unix anna"), bert(write, "unix bert");

@@ -58,7 +58,7 @@ TEST_F(TimeoutsTest, ATaskMayDropItselfAndAskForAnother) {
   EXPECT_EQ(called_, "ab");
 }
 
-// What is dropped in time leaves no handler behind that would have to run.
+// A task that is dropped in time leaves no handler that would have to run.
 TEST_F(TimeoutsTest, TenThousandThatAreDroppedShareOneTimer) {
   for (int i = 0; i < 10'000; ++i) (void)timeouts_.unless_dropped(hours(1), note('x')).reset();
   EXPECT_EQ(io_.poll(), 0u);
