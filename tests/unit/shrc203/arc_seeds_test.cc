@@ -1,5 +1,5 @@
-// Arcs and helices (manual 71) to 82)) against the geometry of their circles, and against the simulator's: thousands of
-// cases from fixed seeds.
+// Comparison of arcs and helices (manual 71) to 82)) with the geometry of their circles and with the simulator, in
+// thousands of cases from fixed seeds.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ bool contains(const Extent& extent, double value, double tolerance) {
          value <= static_cast<double>(extent.highest) + tolerance;
 }
 
-// Of every size up to what a command carries, on every side, and often on an axis.
+// Returns a coordinate of any size that a command can carry, with either sign; 0 in one case of ten.
 std::int64_t coordinate(Random& random) {
   if (random.chance(0.1)) return 0;
   std::int64_t size = 1;
@@ -57,12 +57,13 @@ PlanePoint point_elsewhere(Random& random) {
 
 Rotation rotation(Random& random) { return random.chance(0.5) ? Rotation::clockwise : Rotation::counterclockwise; }
 
-// Places on the way round `center` from 0,0, in order; `sweep` in radians, counterclockwise above 0.
+// Returns points along the arc around `center` that starts at 0,0, in order; `sweep` in radians, positive
+// counterclockwise.
 std::vector<Point> sampled(Point center, double sweep) {
   std::vector<Point> places;
   for (int i = 0; i <= kSamples; ++i) {
     const double angle = sweep * i / kSamples;
-    // The start as seen from the center, turned by the angle.
+    // Vector from the center to the start, rotated by the angle.
     const double x = -center.x * std::cos(angle) + center.y * std::sin(angle);
     const double y = -center.x * std::sin(angle) - center.y * std::cos(angle);
     places.push_back({center.x + x, center.y + y});
@@ -70,14 +71,14 @@ std::vector<Point> sampled(Point center, double sweep) {
   return places;
 }
 
-// The same out of what the arc says of itself: its center lies beside its heading.
+// Computes the center from the arc's own data: it is perpendicular to the heading at the start.
 Point center_of(const Arc& arc) {
   const double side = arc.sweep < 0 ? -1 : 1;
   return {-side * arc.radius * std::sin(arc.heading), side * arc.radius * std::cos(arc.heading)};
 }
 
-// Of one coordinate: no sample lies outside, and each bound is that of the start, of the end or of the circle, rounded
-// outwards, with a sample close to it.
+// Checks one coordinate: no sample is outside, each bound is the start, the end or the edge of the circle, rounded
+// outwards, and a sample is close to each bound.
 void expect_bounds(const Extent& extent, const std::vector<double>& samples, double center, const Arc& arc,
                    double tolerance) {
   const double step = arc.sweep / kSamples;
@@ -111,7 +112,7 @@ void expect_on(const ArcEnd& end, Point place, double tolerance) {
   EXPECT_NEAR(static_cast<double>(end.second), place.y, 0.5 + tolerance);
 }
 
-// What `degrees` about `center` come to, however the arc was made.
+// Checks an arc of `degrees` around `center`, however the arc was made.
 void expect_turned(const Arc& arc, PlanePoint center, double degrees, Rotation way) {
   const double sweep = (way == Rotation::clockwise ? -1 : 1) * degrees * std::numbers::pi / 180;
   const Point middle = as_point(center);
@@ -165,7 +166,7 @@ TEST(ArcSeeds, GoesThroughThePassingPointToTheEnd) {
     SCOPED_TRACE(
         fmt::format("seed {} case {}: {} {} to {} {}", kSeed, i, passing.first, passing.second, end.first, end.second));
     const auto arc = arc_through(passing, end);
-    // A wider arc has its own test: from a center so far away nothing can be computed here.
+    // Arcs with a larger radius have their own test: their center is too far away to compute with here.
     if (!arc || arc->radius > 1e10) continue;
     ++made;
     const Point center = center_of(*arc);
@@ -234,7 +235,7 @@ TEST(ArcSeeds, HelicesAreTheirCirclesFromAbove) {
   }
 }
 
-// The simulator computes by itself: each coordinate as a cosine about the center.
+// The simulator computes independently: each coordinate as a cosine around the center.
 void expect_like(const simulator::Arc& sent, const Arc& arc) {
   const simulator::ArcPath path = simulator::path_of(sent);
   const ArcExtent extent = extent_of(arc);
@@ -242,11 +243,12 @@ void expect_like(const simulator::Arc& sent, const Arc& arc) {
     EXPECT_TRUE(contains(extent.first, static_cast<double>(path.plane[0].offset(i / 200.0)), 0)) << i;
     EXPECT_TRUE(contains(extent.second, static_cast<double>(path.plane[1].offset(i / 200.0)), 0)) << i;
   }
-  // Where the end lies halfway between two pulses either is right.
+  // An end halfway between two pulses may be rounded either way.
   EXPECT_LE(std::abs(end_of(arc).first - path.plane[0].end), 1);
   EXPECT_LE(std::abs(end_of(arc).second - path.plane[1].end), 1);
   EXPECT_EQ(end_of(arc).third, path.linear);
-  EXPECT_NEAR(length_of(arc), path.length, 0.5 + 1e-9 * path.length);  // its rise is rounded first
+  EXPECT_NEAR(length_of(arc), path.length,
+              0.5 + 1e-9 * path.length);  // the rise is rounded before the length is computed
 }
 
 TEST(ArcSeeds, TheSimulatedControllerStaysWithinItAndEndsThere) {

@@ -1,4 +1,5 @@
-// Arcs and helices (manual 71) to 82)): the manual's own, those with a closed form, and what is none.
+// Arcs and helices (manual 71) to 82)): the manual's examples, arcs with closed-form results, and arcs that are
+// refused.
 #include "device/stage/arc.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ TEST(Arc, TheManualsCircle) {
 }
 
 TEST(Arc, TheManualsAngle) {
-  // Manual 72): from 100 pulses left of the center and 200 above it over the top to 200 right and 100 above.
+  // Manual 72): from 100 pulses left of and 200 above the center, over the top, to 200 right of and 100 above it.
   const auto arc = arc_by_angle({100, -200}, 90, Rotation::clockwise);
   ASSERT_TRUE(arc);
   EXPECT_EQ(end_of(*arc), (ArcEnd{300, -100, 0}));
@@ -44,7 +45,7 @@ TEST(Arc, TheManualsAngle) {
   EXPECT_EQ(end_of(*back), (ArcEnd{-100, -300, 0}));
 }
 
-// Of the manual's four examples of passing points, all with direction 0, three go clockwise.
+// Three of the manual's four examples of passing points run clockwise, although all four have direction 0.
 TEST(Arc, TheManualsPassingPoints) {
   EXPECT_EQ(rotation_of(*arc_through({5000, 3000}, {8000, 12000})), Rotation::counterclockwise);  // 73), 79)
   EXPECT_EQ(rotation_of(*arc_through({-5000, 3000}, {-8000, 12000})), Rotation::clockwise);       // 76), 82)
@@ -92,7 +93,7 @@ TEST(Arc, ThreeDifferentPointsAreNeeded) {
   EXPECT_EQ(reason_of(helix_through({10, 5}, {20, 10}, 5)), Reason::invalid_request);
 }
 
-// Exactly: the products of coordinates have more digits than a double.
+// The calculation must be exact: the products of coordinates have more digits than a double.
 TEST(Arc, NearlyOnOneLine) {
   const auto flat = arc_through({499'999'999, 1}, {999'999'999, 1});
   ASSERT_TRUE(flat) << flat.error().message;
@@ -109,12 +110,12 @@ TEST(Arc, NearlyOnOneLine) {
 }
 
 TEST(Arc, OnesThatLeadOutOfEverythingAreRefused) {
-  // From the start by way of a point far behind the end: nearly all of a circle that no stage has room for.
+  // The arc runs from the start through a point far beyond the end: nearly a full circle, too large for any stage.
   const auto around_it = arc_through({kFurthest, 1}, {1, 0});
   ASSERT_FALSE(around_it);
   EXPECT_EQ(around_it.error().reason, Reason::out_of_range);
   EXPECT_EQ(reason_of(arc_through({-kFurthest, 1}, {1, 0})), Reason::out_of_range);
-  // A little wider than the 2 * 999,999,999 that there are, one axis at a time.
+  // Slightly wider than the possible 2 * 999,999,999 pulses, one axis at a time.
   EXPECT_EQ(reason_of(arc_through({900'000'000, kFurthest}, {0, 1})), Reason::out_of_range);
   EXPECT_EQ(reason_of(arc_through({kFurthest, 900'000'000}, {1, 0})), Reason::out_of_range);
   EXPECT_TRUE(arc_through({kFurthest, kFurthest}, {1, 0}));
@@ -144,13 +145,13 @@ TEST(Arc, AnglesHaveTheManualsRange) {
 }
 
 TEST(Arc, TheThirdAxisGoesAlongEvenly) {
-  // Manual 74): 100 pulses and two turns are 200.
+  // Manual 74): 100 pulses in each of two turns are 200.
   const auto turns = helix_of_turns({0, 5000}, 2, Rotation::clockwise, -100);
   ASSERT_TRUE(turns);
   EXPECT_EQ(end_of(*turns), (ArcEnd{0, 0, -200}));
   EXPECT_EQ(text(extent_of(*turns)), "[-5000 5000] [0 10000] [-200 0]");
   EXPECT_DOUBLE_EQ(length_of(*turns), std::hypot(4 * kPi * 5000, 200));
-  // Manual 75): 100 pulses and 540 degrees are 150; below one turn the amount is that of all.
+  // Manual 75): 100 pulses a turn are 150 at 540 degrees; below one turn the amount is that of the whole arc.
   const auto rise = [](double degrees, std::int64_t amount) {
     return end_of(*helix_by_angle({0, 100}, degrees, Rotation::clockwise, amount)).third;
   };
@@ -163,7 +164,7 @@ TEST(Arc, TheThirdAxisGoesAlongEvenly) {
   const auto quarter = helix_by_angle({0, 100}, 90, Rotation::clockwise, 50);
   EXPECT_EQ(end_of(*quarter), (ArcEnd{-100, 100, 50}));
   EXPECT_EQ(text(extent_of(*quarter)), "[-100 0] [0 100] [0 50]");
-  // Manual 76): it is the end that the amount names.
+  // Manual 76): the amount is the third axis's end position.
   EXPECT_EQ(end_of(*helix_through({-5000, 3000}, {-8000, 12000}, 10000)), (ArcEnd{-8000, 12000, 10000}));
 }
 

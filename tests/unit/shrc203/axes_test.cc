@@ -54,7 +54,7 @@ TEST(AxisSet, IsWrittenForPeople) {
   EXPECT_EQ(to_string(k123), "axes 1, 2 and 3");
 }
 
-// Manual 10) ?:P and every other `a`.
+// Manual 10) ?:P and all other commands with a parameter `a`.
 TEST(CommandLetter, IsTheOneOfTheManual) {
   EXPECT_EQ(command_letter(k1), '1');
   EXPECT_EQ(command_letter(k2), '2');

@@ -52,13 +52,13 @@ TEST_F(BarrierTest, AnotherEchoTellsThatTheLineWasNotReceived) {
   EXPECT_EQ(it.received(), false);
 }
 
-// One damaged byte makes another controller of it: only the same answer twice does.
+// One damaged byte can look like another controller's identity, so only the same answer twice is believed.
 TEST_F(BarrierTest, AnIdentityOfAnotherControllerIsAskedForAgain) {
   constexpr const char* kOther = "SIGMAKOKI,SHRC-203,2106001009,V2.00.000";
   constexpr const char* kThird = "SIGMAKOKI,SHRC-203,3106001001,V2.00.000";
   struct Case {
     std::vector<const char*> answers;
-    const char* believed;  // null: none
+    const char* believed;  // null if no identity is believed
   };
   for (const Case& one : {Case{{kOther, kIdentity}, "2106001001"}, Case{{kOther, kOther}, "2106001009"},
                           Case{{kOther, kThird, kThird}, "3106001001"}, Case{{kOther, kThird, kOther}, nullptr}}) {
@@ -74,7 +74,7 @@ TEST_F(BarrierTest, AnIdentityOfAnotherControllerIsAskedForAgain) {
   }
 }
 
-// Not even the first unreadable answer makes it another.
+// An unreadable first answer is no evidence of another controller.
 TEST_F(BarrierTest, AnUnreadableIdentityIsAskedForAgain) {
   auto it = barrier("");
   it.start(at(0));
@@ -147,7 +147,7 @@ TEST_F(BarrierTest, ThreeProbesAndNoMore) {
   EXPECT_EQ(owed.echoes, 3);
 }
 
-// A repeated ?:CMD is answered by the ?:CMD before it: that says nothing about the line in doubt.
+// A repeated ?:CMD is answered with the ?:CMD before it, which shows nothing about the line in doubt.
 TEST_F(BarrierTest, RepeatedProbesAreOwedAndSwallowed) {
   auto it = barrier("G:1");
   it.start(at(0));
@@ -171,7 +171,7 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_FALSE(settle_outstanding(owed, kIdentity)) << "no more than is owed";
 }
 
-// Two stops in one barrier: the ?:CMD from before the first is answered late, and shows nothing of the second.
+// Two stops in one barrier: a late answer to the ?:CMD from before the first stop says nothing about the second.
 TEST_F(BarrierTest, AQuestionAskedBeforeTheStopDoesNotStandForTheOneBehindIt) {
   auto it = barrier("?:EP");
   it.start(at(0));
@@ -186,7 +186,7 @@ TEST_F(BarrierTest, AQuestionAskedBeforeTheStopDoesNotStandForTheOneBehindIt) {
   EXPECT_THAT(lines, ElementsAre("?:CMD", "*IDN?", "?:CMD", "*IDN?"));
 }
 
-// The first identity to come was requested before the stop, whose OK has not come yet, even if it comes twice.
+// The first identities to arrive were requested before the stop, whose OK is still missing, even if two arrive.
 TEST_F(BarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   auto it = barrier("");
   it.start(at(0));

@@ -1,4 +1,4 @@
-// Lines as callers write them and as they are sent; the examples are the manual's.
+// Lines as callers write them and as they are sent; the examples are from the manual.
 #include "device/shrc203/command/codec.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(Codec, TheManualsExamplesAreSentAsTheyStand) {
   }
 }
 
-// Manual 68), 70), 84): their examples have blanks beside the comma that separates the speeds.
+// Manual 68), 70), 84): the examples have blanks after the comma before the speeds.
 TEST(Codec, BlanksAfterACommaAreLeftOut) {
   EXPECT_EQ(sent("MP:1+P1000, S100F1000R50"), "MP:1+P1000,S100F1000R50");
   EXPECT_EQ(sent("MP:A+P1000+P2000, S100F1000R50 S200F2000R100"), "MP:A+P1000+P2000,S100F1000R50 S200F2000R100");
@@ -119,7 +119,7 @@ TEST(Codec, NotOfAnyShape) {
   }
 }
 
-// A command that the controller has, with other parameters than it takes.
+// The controller has these commands, but with other parameters.
 TEST(Codec, NotOfItsShape) {
   for (const char* line : {"M:1", "M:A+P1000", "M:1+P1000+P2000", "M:1+Q1000", "C:1", "C:12x", "K:1+P1000", "G:E",
                            "D:AS100F1000R100", "M:1+P1000 ", "G:1 G:2"}) {
@@ -127,14 +127,14 @@ TEST(Codec, NotOfItsShape) {
   }
 }
 
-// A number where others are to be chosen from.
+// Numbers that are not among the permitted values.
 TEST(Codec, NoneOfTheChoices) {
   for (const char* line : {"M:4+P1000", "?:R4", "C:12", "S:1,7", "S:1,15", "WI:1,64", "H5:1", "T:P4P5"}) {
     EXPECT_EQ(sent(line), "refused: OUT_OF_RANGE") << line;
   }
 }
 
-// One request, one line: nothing that could end it or begin another is ever sent.
+// One request is one line: characters that could end the line or begin another are never sent.
 TEST(Codec, CharactersThatAreNeverSent) {
   EXPECT_EQ(sent(""), "refused: MALFORMED_LINE");
   EXPECT_EQ(sent("G:1\r"), "refused: MALFORMED_LINE");
@@ -173,7 +173,7 @@ TEST(Codec, ArgumentsThatDoNotFit) {
   EXPECT_EQ(reason(command_row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
 }
 
-// As the manual's own cells have them (manual 71), 77), 78), 90)): without a sign, or a unit.
+// The manual's tables use these forms without a sign or a unit (manual 71), 77), 78), 90)).
 TEST(Codec, LooseFormsOfArcsAndSpeeds) {
   EXPECT_EQ(parse_command("E:0A0M0.05-M0.05")->line, "E:0A0+M0.05-M0.05");
   EXPECT_EQ(parse_command("EP:0A0M0.05-M0.05,S0.5F5R50")->line, "EP:0A0+M0.05-M0.05,S0.5F5R50");
@@ -183,7 +183,7 @@ TEST(Codec, LooseFormsOfArcsAndSpeeds) {
   EXPECT_EQ(parse_command("DS:2100")->line, "DS:2F100");
 }
 
-// More than 0 and up to 360, with or without a fraction, whatever the units beside it (manual 72)).
+// Angles are above 0 and at most 360, with or without a fraction, whatever the unit of the coordinates (manual 72)).
 TEST(Codec, AnglesHaveTheirOwnRange) {
   EXPECT_EQ(parse_command("E:1A0+P100-P200D22.5")->line, "E:1A0+P100-P200D22.5");
   EXPECT_EQ(parse_command("E:1A0+M1-M2D360")->line, "E:1A0+M1-M2D360");
@@ -194,7 +194,7 @@ TEST(Codec, AnglesHaveTheirOwnRange) {
   }
 }
 
-// A helix takes axis 3 along (manual 74)), and the a of T:T is a time (97)).
+// A helix also moves axis 3 (manual 74)), and the parameter a of T:T is a time (manual 97)).
 TEST(Codec, AxesThatALetterDoesNotName) {
   EXPECT_EQ(parse_command("E:3A0N2+P1-P2+P3")->axes(AxisSet::all()), AxisSet::all());
   EXPECT_EQ(parse_command("E:0A0+P1-P2")->axes(AxisSet::all()).count(), 2);

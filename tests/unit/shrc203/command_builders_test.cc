@@ -1,4 +1,4 @@
-// The lines that the gateway itself sends, as the manual writes them.
+// Lines that the gateway itself sends, as the manual writes them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -122,7 +122,7 @@ TEST(CommandBuilders, Settings) {
   EXPECT_EQ(commands::clear_errors(kTwo).line, "BEC:A");                                   // 53)
 }
 
-// Manual 89): S is at most F, and both 1 to 1,000,000.
+// Manual 89): S is at most F, and both are 1 to 1,000,000.
 TEST(CommandBuilders, SpeedsThatCanBeSet) {
   EXPECT_TRUE(commands::can_be_set({1, 1'000'000, 1000}));
   EXPECT_FALSE(commands::can_be_set({0, 1000, 100}));

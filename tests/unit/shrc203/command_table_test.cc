@@ -1,11 +1,12 @@
-// What the rows say beside their lines, typed from the manual.
+// Properties of the table's rows besides their lines, typed from the manual.
 #include "device/shrc203/command/command_table.h"
 
 #include <gtest/gtest.h>
 
 namespace axisgate::shrc203::command_table_test {
 
-// In MANUAL, TEACHING and the like the controller still says what it is and what it holds; it takes no orders.
+// In MANUAL, TEACHING and similar modes the controller answers questions about itself and its registers, but executes
+// no commands.
 TEST(CommandTable, QuestionsAreAnsweredOffHost) {
   for (const char* name : {"?:W", "?:D", "?:MODE", "?:CMD", "?:L", "*IDN?"}) {
     EXPECT_TRUE(command_row(name).answered_off_host()) << name;

@@ -27,7 +27,7 @@ TEST(Completions, PossibleFromTheStartOn) {
   EXPECT_EQ(completions.outstanding(), kSecond);
 }
 
-// A chain reports one for each segment, so one that has come does not end it.
+// A chain reports a completion for each segment, so an axis may complete again after the first.
 TEST(Completions, StillPossibleAfterOneHasArrived) {
   Completions completions;
   completions.started(kFirst, after(0));
@@ -77,7 +77,7 @@ TEST(Completions, AnAxisThatMovesUnaskedMayComplete) {
   EXPECT_EQ(completions.possible(), AxisSet());
 }
 
-// READY so soon may be the answer of the time before the start.
+// READY this soon after the start may still describe the time before the start.
 TEST(Completions, ReadyRightAfterTheStartIsNotBelieved) {
   Completions completions;
   completions.started(kFirst, after(0));
@@ -97,7 +97,7 @@ TEST(Completions, SettlesWhenTheLastAxisDoes) {
   EXPECT_EQ(completions.settles_from(kFirstTwo), after(1700));
 }
 
-// A segment of a chain has started it again since it was READY: the answer that shows that does not settle it.
+// A segment of the chain has started the axis again since it was READY; an answer that shows this does not settle it.
 TEST(Completions, AnAnswerThatShowsAnAxisBusyDoesNotSettleIt) {
   Completions completions;
   completions.started(kFirstTwo, after(0));

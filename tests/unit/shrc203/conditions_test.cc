@@ -1,5 +1,5 @@
-// What a stage's status means, and what counts as a change of it. The statuses are typed from manual 5) Q:S, where bit
-// 1 is the lowest.
+// Interpretation of a stage's status, and the changes of it that count. The statuses are typed from manual 5) Q:S,
+// where bit 1 is the lowest.
 #include "device/shrc203/state/conditions.h"
 
 #include <gmock/gmock.h>
@@ -107,7 +107,7 @@ TEST_F(Readings, WhatTheFirstReadingsShowHasNoReadingBefore) {
 TEST_F(Readings, WhatEveryMotionShowsIsNoChange) {
   read(0x1, 0x1, 10);
   for (int second = 11; second < 14; ++second) {
-    EXPECT_THAT(read(0x1878003, 0x1, second), IsEmpty());  // bits 16 to 19, 24, 25 and a refused command
+    EXPECT_THAT(read(0x1878003, 0x1, second), IsEmpty());  // bits 16 to 19, 24, 25, and a refused command
   }
 }
 

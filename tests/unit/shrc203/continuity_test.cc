@@ -1,5 +1,5 @@
-// What may have happened to the controller between two lines, as tables: what is written and answered when, and what is
-// to be thought of it.
+// Tables of what the gateway writes and receives at which time, and of what it concludes about a restart of the
+// controller between two lines.
 #include "device/shrc203/line/continuity.h"
 
 #include <gmock/gmock.h>
@@ -22,12 +22,12 @@ using std::chrono::milliseconds;
 using testing::IsEmpty;
 using Verdict = Continuity::Verdict;
 
-// Every line and its answer take so long: an answer is late 160 ms after its line, and not before.
+// Transfer time of every line and its answer. An answer is late from 160 ms after its line.
 constexpr milliseconds kOnTheWire{10};
 
 TimePoint at(int ms) { return TimePoint{} + milliseconds(ms); }
 
-// None; a late answer alone; more than that.
+// Doubt after an answer: none, only a late answer, or more.
 enum class Doubt { none, late, open };
 
 struct Step {
@@ -35,9 +35,9 @@ struct Step {
   int ms;
   Kind kind;
   std::string line = {};                // sent, or reported by ?:CMD
-  bool due = false;                     // whether ?:CMD was to be asked before it was sent
-  Doubt doubt = Doubt::none;            // of which the answer leaves us
-  std::optional<Verdict> verdict = {};  // on what ?:CMD reported
+  bool due = false;                     // whether ?:CMD was due before the line was sent
+  Doubt doubt = Doubt::none;            // remaining after the answer
+  std::optional<Verdict> verdict = {};  // on the line that ?:CMD reported
 };
 
 Step connected(int ms) { return {ms, Step::Kind::connected}; }
@@ -102,7 +102,7 @@ const Case kPauses[] = {
     {"AfterALongerPauseTheQuestionComesFirst",
      {begin(0), sent(10, "O:1"), taken(20), sent_though_due(171, "?:CMD"), told(180, "O:1", Verdict::same, Doubt::none),
       sent(330, "?:V"), taken(340)}},
-    // ?:CMD reports this line from now on, so that it can never again report the one before the pause.
+    // From now on ?:CMD reports this line, so it can no longer report the line before the pause.
     {"AnotherLineAfterThePauseHidesWhatHappenedInIt",
      {begin(0), sent_though_due(151, "?:V"), taken(160, Doubt::open), sent(170, "?:CMD"),
       told(180, "?:V", Verdict::same, Doubt::open)}},
@@ -128,7 +128,7 @@ const Case kLate[] = {
     {"ItBeginsAnewWithTheNextDoubt",
      {begin(0), sent_though_due(151, "?:V"), taken(160, Doubt::open), begin(200), sent(200, "?:SN"),
       taken(361, Doubt::late)}},
-    // The first answer to come may be that of the first question; between the two the controller may have restarted.
+    // The first answer may be to the first question; the controller may have restarted between the two.
     {"ARepeatedQuestionIsAsOldAsTheFirst",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "?:CMD"), sent_though_due(520, "?:CMD"),
       told(530, "?:CMD", Verdict::same, Doubt::late)}},
@@ -150,11 +150,11 @@ const Case kVerdicts[] = {
       told(510, "M:1+P1000", Verdict::foreign, Doubt::open)}},
     {"OfSomebodyElseThoughSoonAfter",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "?:CMD"), told(30, "M:1+P1000", Verdict::foreign, Doubt::open)}},
-    // Not in the command table here; the manual has it.
+    // The command table here lacks this command, but the manual has it.
     {"OfSomebodyElseWhoKnowsMore",
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"),
       told(510, "JO:1+", Verdict::foreign, Doubt::open)}},
-    // After a restart it may tell what it likes: no command, or the question itself.
+    // After a restart ?:CMD may report anything: no command, or the question itself.
     {"NoCommandAtAll",
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"), told(510, "0", Verdict::open, Doubt::open)}},
     {"TheQuestionThatNobodyAskedBefore",
@@ -169,7 +169,7 @@ const Case kVerdicts[] = {
     {"OrMayNot",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "O:2"), sent_though_due(520, "?:CMD"),
       told(530, "O:1", Verdict::same, Doubt::none)}},
-    // It was written before any restart could have ended, the question was not.
+    // The first question was written before any restart could have ended, the second was not.
     {"ARestartedControllerMayHaveTakenTheFirstQuestion",
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"), sent_though_due(1000, "?:CMD"),
       told(1010, "?:CMD", Verdict::open, Doubt::open)}},
@@ -188,7 +188,7 @@ const Case kVerdicts[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Verdicts, ContinuityTable, testing::ValuesIn(kVerdicts), name_of);
 
-// Whether ?:CMD reports a refused line is an open question (manual 40)), and it may have come in as another.
+// The manual does not say whether ?:CMD reports a refused line (manual 40)), and the line may have arrived damaged.
 const Case kRefused[] = {
     {"TheRefusedLineIsTold",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "G:1"), refused(30), sent_though_due(500, "?:CMD"),
@@ -199,7 +199,7 @@ const Case kRefused[] = {
     {"SoonAfterItIsToldAsItCameIn",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "G:1"), refused(30), sent(40, "?:CMD"),
       told(50, "G:3", Verdict::same, Doubt::none)}},
-    // Nobody can tell now whether the line or a restart is to blame, but no other program need be.
+    // The cause may be the line or a restart, but no other program is needed to explain the report.
     {"AfterAPauseThatTellsNothing",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "G:1"), refused(30), sent_though_due(500, "?:CMD"),
       told(510, "G:3", Verdict::open, Doubt::open)}},
@@ -215,7 +215,7 @@ const Case kRefused[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Refusals, ContinuityTable, testing::ValuesIn(kRefused), name_of);
 
-// A stop waits for nothing, so it is written behind the ?:CMD that has not been answered yet.
+// A stop waits for nothing, so it is written after a ?:CMD that has not been answered yet.
 const Case kStops[] = {
     {"BothAnswered",
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"), sent_though_due(500, "L:1"),
@@ -229,7 +229,7 @@ const Case kStops[] = {
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"), sent_though_due(500, "L:1"),
       told(510, "O:1", Verdict::same, Doubt::none), sent_though_due(1010, "?:CMD"),
       told(1020, "?:CMD", Verdict::same, Doubt::none)}},
-    // It proves nothing: both were written after the pause.
+    // L:1 proves nothing: both lines were written after the pause.
     {"NeitherIsAnswered",
      {begin(0), sent(0, "O:1"), taken(10), sent_though_due(500, "?:CMD"), sent_though_due(500, "L:1"),
       sent_though_due(1100, "?:CMD"), told(1110, "L:1", Verdict::open, Doubt::open), sent(1120, "?:CMD"),
@@ -252,7 +252,7 @@ const Case kStops[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Stops, ContinuityTable, testing::ValuesIn(kStops), name_of);
 
-// Both were written after the pause, so a controller that had restarted in it would tell the stop just as well.
+// Both lines were written after the pause, so a controller that restarted during the pause would report the stop too.
 TEST(ContinuityStop, WithoutAnyAnswerAfterAPauseProvesNothing) {
   for (const std::string before : {"O:1", "L:1"}) {
     Continuity continuity;
@@ -277,7 +277,7 @@ class ContinuityTells : public testing::Test {
   Continuity continuity;
 };
 
-// A verb and its colon (manual 4.), no matter who sent it.
+// A line looks like a command if it has a verb and a colon (manual 4.), no matter who sent it.
 TEST_F(ContinuityTells, WhatLooksLikeACommand) {
   const std::vector<std::string> commands = {"?:V", "!:S", "L:E", "WI:W,C", "PSET:1+P0", "JO:1+", "Q:S", "?:CMD"};
   EXPECT_EQ(told_of(commands), commands);
@@ -286,7 +286,7 @@ TEST_F(ContinuityTells, WhatLooksLikeACommand) {
       IsEmpty());
 }
 
-// G and *IDN? have no colon.
+// G and *IDN? have no colon, so they are recognised only after being sent.
 TEST_F(ContinuityTells, WhatWasSentFromHere) {
   EXPECT_FALSE(continuity.could_be("G"));
   continuity.begin(at(0));
@@ -303,7 +303,7 @@ TEST_F(ContinuityTells, WhatWasSentFromHere) {
   EXPECT_FALSE(continuity.could_be("*IDN?"));
 }
 
-// It is no sign that nothing happened in the pause before it.
+// The line does not show that nothing happened during the pause before it.
 TEST_F(ContinuityTells, NotWhatWasSentAfterAPause) {
   continuity.begin(at(0));
   continuity.wrote("G", kOnTheWire, at(151));

@@ -1,4 +1,4 @@
-// What part of a path's speed an axis has on a curve.
+// Share of a path's speed that each axis has on a curve.
 #include "device/shrc203/planning/curve_plan.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace axisgate::shrc203::curve_plan_test {
 namespace {
 
-// Half a circle of 100 pulses while the third axis goes 50: the speed is that along the helix.
+// Half a circle with a radius of 100 pulses while the third axis moves 50: the speed applies along the helix.
 TEST(ShareOfSpeed, IsAllInThePlaneAndThePitchBesideIt) {
   const stage::Arc arc{.radius = 100, .heading = 0, .sweep = std::numbers::pi, .rise = -50};
   EXPECT_EQ(share_of_speed(arc, false), 1);

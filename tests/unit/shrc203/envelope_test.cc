@@ -14,8 +14,8 @@ using testing::HasSubstr;
 Quantity millimeters(std::int64_t digits, int decimals = 0) { return {{digits, decimals}, Unit::millimeters}; }
 Quantity micrometers(std::int64_t digits) { return {{digits, 0}, Unit::micrometers}; }
 
-// Axis 1 of 10 nm a pulse travels -5 mm to 5 mm at 2 mm/s at most; operators to 3 mm, token student -1 mm to 2 mm at
-// 0.5 mm/s.
+// Axis 1, 10 nm a pulse, travels from -5 mm to 5 mm at 2 mm/s at most; for operators up to 3 mm; for token student from
+// -1 mm to 2 mm at 0.5 mm/s.
 class EnvelopeTest : public testing::Test {
  protected:
   EnvelopeTest() {
@@ -71,7 +71,7 @@ TEST_F(EnvelopeTest, ARoleHasNarrowerBounds) {
             "axis 1 would go to -6mm, beyond its travel minimum of -5mm");
 }
 
-// The student is an operator, too: the innermost counts, in whatever units they are.
+// The student is also an operator: the narrowest limit applies, whatever its unit.
 TEST_F(EnvelopeTest, ACallerHasTheNarrowestOfHisOwnAndHisRoles) {
   EXPECT_TRUE(student().check_target(1, 200'000));
   EXPECT_TRUE(student().check_target(1, -100'000));
@@ -157,7 +157,7 @@ TEST_F(EnvelopeTest, AnAxisThatTurns) {
             "axis 2 (turn) would go to 90.0025deg, beyond its travel maximum of 90deg");
 }
 
-// 10 nm by the controller; what the profile says is another matter.
+// The controller reports 10 nm a pulse, the profile says otherwise.
 TEST_F(EnvelopeTest, AnotherStageThanTheProfilesMovesNothing) {
   profile.axes[0].name = "x";
   profile.axes[0].stage = StageProfile{"OSMS20-85", {{1000, 0}, false}, {}};
@@ -172,7 +172,7 @@ TEST_F(EnvelopeTest, AnotherStageThanTheProfilesMovesNothing) {
   EXPECT_TRUE(admin().check_axis(2)) << "which has no profile";
 }
 
-// S: makes another way of a pulse at any time (manual 55)).
+// S: can change the distance of a pulse at any time (manual 55)).
 TEST_F(EnvelopeTest, ThePulseIsLookedAtEachTime) {
   profile.axes[0].stage = StageProfile{"OSMS20-85", {{10, 0}, false}, {}};
   EXPECT_TRUE(admin().check_axis(1));

@@ -1,4 +1,4 @@
-// What follows an answer that did not come or cannot be one: the line's barrier, from doubt to certainty.
+// The line's barrier after a missing or impossible answer, from doubt to certainty.
 #include "tests/unit/shrc203/line_fixture.h"
 
 namespace axisgate::shrc203::line_barrier_test {
@@ -16,7 +16,7 @@ const std::string kIdentityLine = std::string(kIdentity) + "\r\n";
 class LineBarrierTest : public LineFixture {
  protected:
   LineBarrierTest() { open_and_rest(); }
-  // A ?:SN before it, so that ?:CMD has another line to tell.
+  // Sends `text` and lets its time limit pass; a ?:SN before it gives ?:CMD another line to report.
   AskedPtr asked_and_late(std::string_view text) {
     ask("?:SN");
     script({{"?:SN\r\n", "2106001001\r\n"}});
@@ -43,7 +43,7 @@ TEST_F(LineBarrierTest, ALateAnswerIsDoubtedUntilTheControllerTellsWhatItReceive
   EXPECT_EQ(late->reason(), Reason::reply_timed_out);
   EXPECT_EQ(late->message(), "\"G:1\" was not answered in time; the controller had received it");
   EXPECT_THAT(news(), ElementsAre("passed"));
-  // The silence was a pause as well.
+  // The silence was also a pause, so ?:CMD comes first.
   script({{"?:CMD\r\n", "*IDN?\r\n"}, {"O:1\r\n", "OK\r\n"}});
   EXPECT_TRUE(next->result->accepted());
 }
@@ -98,7 +98,7 @@ TEST_F(LineBarrierTest, AnAnswerThatWasCutForItsLengthIsGarbage) {
   EXPECT_FALSE(question->ended());
 }
 
-// Manual 3.: "contains NULL of ASCII code or non-ASCII code characters", which no line from here does.
+// Manual 3.: "contains NULL of ASCII code or non-ASCII code characters", which no line of the gateway does.
 TEST_F(LineBarrierTest, NG_ITellsThatTheLineIsDisturbed) {
   const auto setting = ask("O:1");
   script({{"O:1\r\n", "NG_I\r\n"}, {"?:CMD\r\n", "O:1\r\n"}, {"*IDN?\r\n", kIdentityLine}});
@@ -133,7 +133,7 @@ TEST_F(LineBarrierTest, HalfALineBeginsTheSilenceAnew) {
   EXPECT_TRUE(late->ended());
 }
 
-// Else it would make a longer line of the answer to the first probe.
+// Otherwise the half answer would join with the answer to the first probe.
 TEST_F(LineBarrierTest, HalfAnAnswerIsDroppedAtTheTimeLimit) {
   ask("?:V");
   sent();
@@ -180,7 +180,7 @@ TEST_F(LineBarrierTest, AnswersToProbesThatWereGivenUpAreSwallowedLater) {
   EXPECT_THAT(news(), ElementsAre("unexpected SIGMAKOKI,SHRC-203,2106001001,V2.00.000")) << "no more than are owed";
 }
 
-// Then it may refuse the *IDN?, or the line in flight.
+// With an identity outstanding, NG may refuse the *IDN? or the line in flight.
 TEST_F(LineBarrierTest, NGIsNotBelievedWhileAnIdentityIsOwed) {
   asked_and_late("O:1");
   script({{"?:CMD\r\n", "O:1\r\n"}, {"*IDN?\r\n", ""}});
@@ -210,7 +210,7 @@ TEST_F(LineBarrierTest, AStopIsWrittenInTheBarrierAtOnceAndTheBarrierBeginsAnew)
   EXPECT_EQ(late->message(), "\"G:1\" was not answered in time") << "the stop was the last line, and not G:1";
 }
 
-// What precedes the stop's own answer has passed nothing.
+// An identity before the stop's own answer passes no barrier.
 TEST_F(LineBarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   asked_and_late("G:1");
   script({{"?:CMD\r\n", "G:1\r\n"}});
@@ -244,7 +244,7 @@ TEST_F(LineBarrierTest, AStopWhoseOwnAnswerIsGarbageIsInDoubt) {
   EXPECT_THAT(stop->message(), EndsWith("; the controller had received it"));
 }
 
-// An unanswered ?:CMD after a pause proves nothing when it is repeated: a restart may have come before it.
+// A repeated ?:CMD after a pause proves nothing: the controller may have restarted before it.
 TEST_F(LineBarrierTest, TheQuestionBehindAPauseIsDoubtedLikeAnyOther) {
   ask("O:1");
   script({{"O:1\r\n", "OK\r\n"}});
@@ -256,7 +256,7 @@ TEST_F(LineBarrierTest, TheQuestionBehindAPauseIsDoubtedLikeAnyOther) {
   EXPECT_FALSE(waiting->ended());
 }
 
-// So slow a controller may have more to say.
+// A controller this slow may have more to send.
 TEST_F(LineBarrierTest, TheSilenceIsTwiceWhatTheIdentityTook) {
   const auto late = asked_and_late("O:1");
   script({{"?:CMD\r\n", "O:1\r\n"}});

@@ -1,4 +1,5 @@
-// Axis numbers that come by themselves are distinguished from answers, which may also be a bare number.
+// Completions and answers: an axis number that arrives unrequested is distinguished from an answer, which may also be a
+// bare number.
 #include "tests/unit/shrc203/line_fixture.h"
 
 namespace axisgate::shrc203::line_completions_test {
@@ -12,7 +13,7 @@ using testing::IsEmpty;
 
 const std::string kIdentityLine = std::string(kIdentity) + "\r\n";
 
-// No axis can complete unless a test says so.
+// No axis can complete unless a test starts one.
 class LineOfSomeAxesTest : public LineFixture {
  protected:
   ExchangeRequest start(std::string_view text, AxisSet completes) const {
@@ -20,7 +21,7 @@ class LineOfSomeAxesTest : public LineFixture {
     one.completes = completes;
     return one;
   }
-  // HRT: reports the axis number when it has found the origin (manual 60)).
+  // HRT: reports the axis number once it has found the origin (manual 60)).
   void home(int axis) {
     const std::string text = "HRT:" + std::to_string(axis);
     ask(start(text, AxisSet::of(axis)));
@@ -69,7 +70,7 @@ TEST_F(LineCompletionsTest, TheQuestionThatHasWaitedLongestForThemIsKnown) {
   script({{"?:BEEP\r\n", "1\r\n"}});
 }
 
-// Where others are before it once no number can come, a motion that began then would hold it back again.
+// Even when no number can come any more, a motion that starts before the question is written would hold it back again.
 TEST_F(LineCompletionsTest, AQuestionCountsAsHeldBackUntilItIsWritten) {
   ask("?:V");
   ask("?:AXIS");
@@ -114,7 +115,7 @@ TEST_F(LineCompletionsTest, ANumberBetweenALineAndItsAnswerIsNotTheAnswer) {
   EXPECT_THAT(news(), ElementsAre("completion 1", "completion 1"));
 }
 
-// Manual 86): it may come before the OK to the G: that it belongs to.
+// Manual 86): the completion may arrive before the OK to its G:.
 TEST_F(LineCompletionsTest, PossibleAsSoonAsTheStartIsWritten) {
   const auto go = ask(start("G:1", AxisSet::of(1)));
   EXPECT_TRUE(line.completions().possible(1));
@@ -138,7 +139,7 @@ TEST_F(LineCompletionsTest, SoMayOneWhoseAnswerWasLost) {
   EXPECT_EQ(line.completions().possible(), AxisSet::of(2));
 }
 
-// Where no number can come, one is an answer: the beep is on (manual 39)).
+// If no completion is possible, a number is an answer: the beep is on (manual 39)).
 TEST_F(LineCompletionsTest, WithoutMotionANumberIsTheAnswer) {
   const auto beep = ask("?:BEEP");
   script({{"?:BEEP\r\n", "1\r\n"}});
@@ -153,7 +154,7 @@ TEST_F(LineCompletionsTest, ANumberThatCannotBeTheAnswerIsNot) {
   EXPECT_THAT(news(), ElementsAre("completion 2 doubtful"));
 }
 
-// Its answer is 0 or 1: only the number of axis 1 could be taken for it.
+// The answer is 0 or 1, so only the number of axis 1 could be mistaken for it.
 TEST_F(LineCompletionsTest, AQuestionWaitsOnlyForNumbersThatItsAnswerCouldBe) {
   home(2);
   const auto beep = ask("?:BEEP"), wait = ask("?:W");
@@ -163,7 +164,7 @@ TEST_F(LineCompletionsTest, AQuestionWaitsOnlyForNumbersThatItsAnswerCouldBe) {
   EXPECT_FALSE(wait->ended()) << "0 to 2550";
 }
 
-// READY, 200 ms for what is still on its way, and one exchange more (manual 3.: answers come in order).
+// READY, then 200 ms for a number still in transit, then one more exchange (manual 3.: answers come in order).
 TEST_F(LineCompletionsTest, AQuestionWaitsUntilAllNumbersAreCertainlyIn) {
   home(1);
   pass(150);
@@ -211,7 +212,7 @@ TEST_F(LineCompletionsTest, AnAxisThatMovesAgainKeepsTheQuestionWaiting) {
   EXPECT_EQ(beep->reason(), Reason::completion_outstanding);
 }
 
-// Somebody at the front panel, perhaps; or the line has made another command of ours.
+// A person at the front panel may move the axis, or the line has turned a command of ours into another.
 TEST_F(LineCompletionsTest, AnAxisThatIsSeenToMoveMayComplete) {
   line.busy(AxisSet::of(3), now);
   receive("3\r\n");
@@ -237,7 +238,7 @@ TEST_F(LineCompletionsTest, OthersGoMeanwhile) {
   EXPECT_FALSE(beep->ended());
 }
 
-// With one controllable axis ?:C has one field, and with two it has a comma (manual 33)).
+// With one controllable axis ?:C has one field, with two it has a comma (manual 33)).
 TEST_F(LineOfSomeAxesTest, AQuestionForAllAxesDoesNotWaitWhereThereAreTwo) {
   open_and_rest(AxisSet::of(1) | AxisSet::of(2));
   home(1);
@@ -304,7 +305,7 @@ TEST_F(LineCompletionsTest, WhatEndsAClosedQuestionIsDoubtedLikeAnyAnswer) {
   EXPECT_THAT(inputs->message(), HasSubstr("the controller had received it")) << "the line before was !:S";
 }
 
-// The answers to both parts of it show that the controller runs.
+// The answers to both parts of the question show that the controller runs.
 TEST_F(LineCompletionsTest, ASlowClosedQuestionIsNoSignOfARestart) {
   home(2);
   pass(100);
@@ -321,7 +322,7 @@ TEST_F(LineCompletionsTest, ASlowClosedQuestionIsNoSignOfARestart) {
   EXPECT_THAT(news(), IsEmpty());
 }
 
-// It has the time of an answer of its own.
+// The closing !:S has its own time limit.
 TEST_F(LineCompletionsTest, WhatEndsAClosedQuestionMayBeLateToo) {
   home(2);
   const auto inputs = ask_closed("I:");

@@ -1,4 +1,4 @@
-// A Line in virtual time between a link that keeps what is written and a listener that keeps what it receives.
+// A Line in virtual time, between a link that records its writes and a listener that records its reports.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ class RecordingLink : public ByteLink {
   std::vector<Duration> reopened;
 };
 
-// What the line reports, in words: "connected", "completion 2", "completion 2 doubtful" ...
+// Keeps the line's reports as words: "connected", "completion 2", "completion 2 doubtful" ...
 class RecordingListener : public LineListener {
  public:
   void line_connected(const Identity& identity, const std::optional<std::string>&, TimePoint) override {
@@ -74,7 +74,7 @@ class RecordingListener : public LineListener {
     return refuses && refuses(request) ? std::optional(refusal) : std::nullopt;
   }
 
-  std::vector<std::string> open_stops;  // that stops_to_write() returns
+  std::vector<std::string> open_stops;  // returned by stops_to_write()
   bool stop_open = false;
   std::vector<std::string> news, limits, asked_for;
   std::vector<ExchangeEnded> exchanges;
@@ -84,7 +84,7 @@ class RecordingListener : public LineListener {
   Problem refusal{Reason::lease_lost, "the lease is another's", {}, {}, {}, {}};
 };
 
-// An exchange that somebody requested; `result` once it has ended.
+// A requested exchange; `result` is set once it has ended.
 struct Asked {
   std::optional<ExchangeResult> result;
 
@@ -96,10 +96,10 @@ struct Asked {
 };
 using AskedPtr = std::shared_ptr<Asked>;
 
-// 10,000 baud, a millisecond a byte, so that all times are whole ones:
+// A line in virtual time at 10,000 baud, a millisecond a byte, so all times are whole milliseconds:
 //
-//   an answer is waited for 500 ms, and what its line of n bytes with CR LF and the longest answer take: n + 64 ms
-//   a probe's for 564 ms; the silence is three longest answers, 192 ms
+//   time limit of an answer: 500 ms, plus n + 64 ms for a line of n bytes with CR LF and the longest answer
+//   time limit of a probe: 564 ms; silence: three longest answers, 192 ms
 class LineFixture : public testing::Test {
  protected:
   void TearDown() override { EXPECT_EQ(sent(), "") << "written, and nobody looked for it"; }
@@ -111,7 +111,7 @@ class LineFixture : public testing::Test {
   }
   using Lines = std::vector<std::pair<std::string, std::string>>;
 
-  // As its shell does: whenever the line wants it, and at the end.
+  // Advances the time and calls the line as its shell does: at each of its deadlines, and at the end.
   void pass(Duration time) {
     const TimePoint until = now + time;
     std::optional<TimePoint> before;
@@ -132,12 +132,12 @@ class LineFixture : public testing::Test {
     line.receive(bytes, now);
     executor.run();
   }
-  // What was written since the last time.
+  // Returns the bytes written since the last call.
   std::string sent() { return std::exchange(link.written, {}); }
   std::vector<std::string> news() { return std::exchange(listener.news, {}); }
 
-  // Each line is written, and answered 5 ms later, or by "" not at all. What is written behind the last is for who
-  // comes next.
+  // Expects each line to be written, and answers it 5 ms later; "" means no answer. Bytes written after the last answer
+  // are left for the next call.
   void script(const Lines& lines) {
     for (const auto& [written, answer] : lines) {
       ASSERT_EQ(sent(), written);
@@ -187,7 +187,7 @@ class LineFixture : public testing::Test {
     line.open(controllable, now);
     executor.run();
   }
-  // Connected, with all axes confirmed stationary for so long that none can complete any more.
+  // Connects, with all axes confirmed stationary for so long that none can complete any more.
   void open_and_rest(AxisSet controllable = AxisSet::all()) {
     connect();
     line.ready(AxisSet::all(), now);
@@ -196,7 +196,7 @@ class LineFixture : public testing::Test {
     open(controllable);
     forget();
   }
-  // What has been reported and written so far.
+  // Discards all reports and written bytes up to now.
   void forget() {
     sent();
     news();

@@ -1,4 +1,4 @@
-// Whose line goes next, and what becomes of those that wait.
+// Order in which waiting lines are sent, and the fate of those that wait.
 #include "tests/unit/shrc203/line_fixture.h"
 
 namespace axisgate::shrc203::line_lanes_test {
@@ -12,7 +12,7 @@ using testing::IsEmpty;
 class LineLanesTest : public LineFixture {
  protected:
   LineLanesTest() { open_and_rest(); }
-  // In flight, so that all that comes after it has to wait.
+  // Puts a line in flight, so that every later line has to wait.
   void keep_the_line_busy() {
     ask("?:SN");
     EXPECT_EQ(sent(), "?:SN\r\n");
@@ -48,7 +48,7 @@ TEST_F(LineLanesTest, ManyStopsDoNotKeepOthersFromTheLine) {
   script({{"L:1\r\n", "OK\r\n"}, {"?:V\r\n", "V2.00.000\r\n"}, {"L:2\r\n", "OK\r\n"}, {"L:3\r\n", "OK\r\n"}});
 }
 
-// The question is written, and its answer is not waited for.
+// The question is written, but its answer is not awaited.
 TEST_F(LineLanesTest, AfterAPauseAStopIsRightBehindTheQuestion) {
   ask("O:1");
   script({{"O:1\r\n", "OK\r\n"}});
@@ -67,7 +67,7 @@ TEST_F(LineLanesTest, AfterAPauseAStopIsRightBehindTheQuestion) {
   EXPECT_TRUE(alone->result->accepted());
 }
 
-// One that the line has cut in two is refused twice.
+// A stop that the line has cut in two is refused twice.
 TEST_F(LineLanesTest, BehindARefusedStopTheNextOneWaitsTwentyMilliseconds) {
   const auto stop = ask("L:1");
   script({{"L:1\r\n", "NG\r\n"}});
@@ -143,7 +143,7 @@ TEST_F(LineLanesTest, OnlyIdenticalQuestionsShareOne) {
   EXPECT_EQ(model->reply(), "SHRC-203");
 }
 
-// It may have been answered before the second was asked.
+// The controller may have answered the question before the second caller asked.
 TEST_F(LineLanesTest, AQuestionOnTheWireIsNotShared) {
   const auto first = ask("?:V"), second = ask("?:V");
   script({{"?:V\r\n", "V2.00.000\r\n"}, {"?:V\r\n", "V2.00.001\r\n"}});
@@ -237,7 +237,7 @@ TEST_F(LineLanesTest, AFullLaneTakesNoMore) {
   EXPECT_FALSE(ask("?:V")->ended()) << "another lane";
 }
 
-// What a motion sends is bounded by its turn, and must not fail because its caller asks for much else.
+// A motion's lines are bounded by its turn and must not fail because the same caller has many other lines.
 TEST_F(LineLanesTest, ACallersOwnLinesHaveAShareOfALane) {
   keep_the_line_busy();
   ExchangeRequest own = request("O:1");
@@ -252,7 +252,7 @@ TEST_F(LineLanesTest, ACallersOwnLinesHaveAShareOfALane) {
   EXPECT_FALSE(ask(of_a_motion)->ended());
 }
 
-// The connections differ, and so do their names.
+// The connections differ, and so do the callers' names.
 TEST_F(LineLanesTest, ThoseOfOneIdentityTakeTurnsAsOne) {
   keep_the_line_busy();
   const auto ask_as = [this](const std::string& caller, const std::string& identity, std::string_view text) {
@@ -340,7 +340,7 @@ TEST_F(LineRefillsTest, WhatMayNotEndBeforeWaitsUntilTheRefillIsLate) {
   pass(milliseconds(75) + kRefillReservedAfterDue - milliseconds(1));
   EXPECT_EQ(sent(), "");
   pass(1);
-  // By then it is so long ago that anything was sent that ?:CMD comes first.
+  // The last line is now so long ago that ?:CMD comes first.
   script({{"?:CMD\r\n", "*IDN?\r\n"}, {"?:V\r\n", "V2.00.000\r\n"}});
   EXPECT_EQ(question->reply(), "V2.00.000");
 }

@@ -1,4 +1,4 @@
-// A line that is lost, is not there, or is shut out, and how it comes back. The bytes are the manual's.
+// A line that is lost, missing or shut out, and how it comes back. The bytes are from the manual.
 #include "tests/unit/shrc203/line_fixture.h"
 
 namespace axisgate::shrc203::line_test {
@@ -80,7 +80,7 @@ TEST_F(LineLossTest, APortIsReopenedWithoutGrowingPausesWhileAStopIsOpen) {
                                          milliseconds(500), milliseconds(1000)));
 }
 
-// Half of what the line carries in a second is 500 bytes.
+// The limit is half of what the line carries in a second, 500 bytes.
 TEST_F(LineLossTest, H62_ADeviceThatSendsWithoutEndIsShutOut) {
   open_and_rest();
   const std::string noise(100, 'x');
@@ -151,7 +151,7 @@ TEST_F(LineLossTest, APortThatDoesNotOpenIsTriedEverMoreSlowly) {
   EXPECT_THAT(news(), ElementsAre("lost: no such device", "lost: no such device", "lost: no such device"));
 }
 
-// Of the line before: nothing of it may become part of an answer.
+// The half line belongs to the lost connection, and must not become part of a later answer.
 TEST_F(LineLossTest, HalfALineIsGoneWithTheLine) {
   open_and_rest();
   ask("?:V");

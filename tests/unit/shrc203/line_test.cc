@@ -1,4 +1,4 @@
-// A line that connects, and exchanges one line at a time. The bytes are the manual's.
+// A line that connects and exchanges one line at a time. The bytes are from the manual.
 #include "tests/unit/shrc203/line_fixture.h"
 
 namespace axisgate::shrc203::line_test {
@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 class LineTest : public LineFixture {};
 
-// Nothing from outside can cause one; if the gateway itself does, it is reported, and the line is not trusted further.
+// Only a fault of the gateway can cause an illegal transition; it is reported, and the line is no longer trusted.
 TEST_F(LineTest, AnIllegalTransitionIsReportedAndDisconnects) {
   open_and_rest();
   news();
@@ -54,7 +54,7 @@ TEST_F(LineTest, WhatComesBeforeTheIdentityIsNobodys) {
   EXPECT_THAT(news(), ElementsAre("connected 2106001001"));
 }
 
-// It may still answer what the line before had asked.
+// The device may still answer a question from before the disconnect.
 TEST_F(LineTest, ASecondConnectIsSilentForAsLongAsAnAnswerMayTake) {
   open_and_rest();
   link_down("unplugged");
@@ -143,7 +143,7 @@ TEST_F(LineTest, APrebufferSettingIsTakenWithOKAsWellAsOK_D) {
   EXPECT_TRUE(second->result->accepted());
 }
 
-// The line may have cut the command in two: its other half's NG is no answer to ?:CMD.
+// The line may have cut the command in two: the other half's NG is no answer to ?:CMD.
 TEST_F(LineTest, AfterNGComesAQuestionThatNGCannotAnswer) {
   open_and_rest();
   const auto refused = ask("C:11");
@@ -180,7 +180,7 @@ TEST_F(LineTest, AfterAPauseComesTheQuestionForTheLineBefore) {
   EXPECT_THAT(news(), IsEmpty());
 }
 
-// Nobody here had asked it before: it was, perhaps, the first line that a restarted controller took.
+// The gateway had not sent ?:CMD before, so it may be the first line that a restarted controller received.
 TEST_F(LineTest, WhereARestartIsSuspectedOtherFactsComeFirst) {
   open_and_rest();
   ask("O:1");
@@ -195,7 +195,7 @@ TEST_F(LineTest, WhereARestartIsSuspectedOtherFactsComeFirst) {
   ExchangeRequest fact = request("Q:SPC");
   fact.handshake = true;
   ask(fact);
-  // Part of the ?:CMD may have been a question of its own, whose answer is still to come.
+  // Part of the ?:CMD may have been received as a separate question, whose answer is still to come.
   script({{"?:CMD\r\n", "L:1\r\n"}, {"Q:SPC\r\n", "P+0,P+0,P+0,0,0,0,R,R,R\r\n"}});
   EXPECT_FALSE(waiting->ended());
   EXPECT_THAT(news(), IsEmpty()) << "it has been told";
@@ -219,7 +219,7 @@ TEST_F(LineTest, BehindALateAnswerARestartIsPossibleAndNoMore) {
   EXPECT_FALSE(line.restart_only_possible());
 }
 
-// 16 bytes of the 100 ms are the line's; a stop's answer may be that of a ?:CMD before it.
+// The line itself takes 16 ms of the 100 ms; a stop's answer may be that of a ?:CMD before it.
 TEST_F(LineTest, TheTurnaroundIsLearntFromExchangesButNotFromStops) {
   open_and_rest();
   ask("?:V");

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 // 10,000 baud: a millisecond a byte.
 class PaceTest : public testing::Test {
  protected:
-  // An exchange of 5 bytes there and 4 back, terminators included.
+  // Records an exchange of 5 bytes sent and 4 received, terminators included.
   void answered_in(Duration turnaround) { timing.answered(3, 2, milliseconds(9) + turnaround); }
 
   LineTiming timing{10'000};
@@ -51,7 +51,7 @@ TEST_F(PaceTest, OneSlowAnswerIsForgotten) {
 TEST_F(PaceTest, AnExchangeLastsAsLongAsItsLongestReply) {
   answered_in(milliseconds(7));
   EXPECT_EQ(timing.longest_exchange(make_command("?:V")), milliseconds(3 + 2 + 64 + 2 + 7));
-  // OK_D; or NG, and ?:CMD behind it, which is answered by the line.
+  // The answer is OK_D or NG; after NG comes ?:CMD, which is answered with the line.
   EXPECT_EQ(timing.longest_exchange(make_command("G:", AxisSet::of(1))),
             milliseconds(3 + 2 + 4 + 2 + 7) + milliseconds(5 + 2 + 3 + 2 + 7));
 }

@@ -11,8 +11,8 @@
 namespace axisgate::shrc203::link_test {
 namespace {
 
-// The columns: port_opened, lost, flooded, stop_waits, identified, answer_doubted, barrier_passed, handshake_passed,
-// restart_suspected, same_controller. "-" cannot be.
+// Columns: port_opened, lost, flooded, stop_waits, identified, answer_doubted, barrier_passed, handshake_passed,
+// restart_suspected, same_controller. "-" is impossible.
 const std::map<std::string, std::array<std::string, 10>> kTable = {
     {"closed", {"identifying", "closed", "-", "reopening", "-", "-", "-", "-", "-", "-"}},
     {"reopening", {"identifying", "closed", "-", "-", "-", "-", "-", "-", "-", "-"}},

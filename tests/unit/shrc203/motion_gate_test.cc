@@ -38,7 +38,7 @@ class MotionGateTest : public testing::Test {
   MotionGate gate_of(Scope scope) {
     return {tasks_, scope, [this] { return question_; }};
   }
-  // As the controller does when time has passed.
+  // Advances the time and expires waiting motions, as the controller does.
   void pass(MotionGate& gate, Duration time, const std::string& inside = {}) {
     tasks_.now_is(tasks_.now() + time);
     gate.expire([inside](AxisSet) { return inside; });
@@ -137,7 +137,7 @@ TEST_F(MotionGateTest, ACallerWaitsWithAQuarterOfThatAtMost) {
   EXPECT_THAT(heard(), ElementsAre("5000 QUEUE_FULL"));
 }
 
-// Two motions at a time, of one axis each, one after the other; and one that needs both axes.
+// Two motions with one axis each are inside, and a third that needs both axes waits.
 class OvertakingTest : public MotionGateTest {
  protected:
   OvertakingTest() {
@@ -212,7 +212,7 @@ TEST_F(OvertakingTest, NorDoesOneWhoseTimeHasPassed) {
   EXPECT_THAT(heard(), ElementsAre("4 DEADLINE_PASSED", HasSubstr("had its turn"), "5 in"));
 }
 
-// A question that waits for motions to end keeps others out.
+// A question that waits for motions to end keeps other motions out.
 class AfterAQuestionTest : public MotionGateTest {
  protected:
   AfterAQuestionTest() {

@@ -73,7 +73,7 @@ TEST(MotionLife, AStopBeforeTheStartIsSeenAtTheStart) {
   EXPECT_EQ(life.shown(), MotionState::stopping);
 }
 
-// A path that rests before its first segment is shown as running, and the registers hold nothing of it.
+// A path that pauses before its first segment is shown as running, but has written nothing to the registers.
 TEST(MotionLife, OneThatRestsFirstHasWrittenNothing) {
   MotionLife life;
   ASSERT_TRUE(life.happened(MotionEvent::entered));

@@ -1,6 +1,6 @@
-// Segments of paths against closed-form geometry, by what is sent for them: the line is read back by hand, its curve is
-// walked point by point, and checked against where the plan says that it ends and against the travel limits. All axis
-// pairs, directions, displacements and places; thousands of cases from fixed seeds.
+// Path segments against closed-form geometry: the line that is sent is read back by hand, its curve is followed point
+// by point, and the points are compared with the planned end and the travel limits. All axis pairs, directions,
+// displacements and places; thousands of cases from fixed seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using Place = std::array<double, kAxisCount>;
 
 constexpr int kCases = 4000, kSamples = 360;
 
-// The numbers of a line in their order, of "EP:1A0+P30-P40D90" 1, 0, 30, -40 and 90, after the letter of its axes.
+// Kind, axes and numbers of a line: "EP:1A0+P30-P40D90" has kind 1, axes A and the numbers 0, 30, -40 and 90.
 struct Line {
   char kind = 0;  // a digit, or K
   char axes = 0;
@@ -36,7 +36,8 @@ Line read_line(const std::string& text) {
   line.kind = curve ? text[3] : text.front();
   line.axes = curve ? text[4] : text[3];
   const std::string rest = text.substr(curve ? 5 : 4, text.find(',') - (curve ? 5 : 4));
-  // A digit for the direction stands in front, N and a number of turns may follow; then amounts; D and an angle.
+  // A curve begins with the digit of its direction, sometimes followed by N and a number of turns; then come the
+  // amounts, then D and an angle.
   static const std::regex kNumber("([+-]?)P?([0-9.]+)");
   std::string apart = rest;
   if (curve) {
@@ -55,7 +56,7 @@ std::array<std::size_t, 2> plane_of(char axes) {
   return {0, 1};
 }
 
-// About a center, by an angle in degrees, counterclockwise above 0 (manual 71), 72), 74), 75)).
+// Returns points around the center x, y over an angle in degrees, counterclockwise above 0 (manual 71), 72), 74), 75)).
 std::vector<Place> turned(double x, double y, double degrees, double rise, std::array<std::size_t, 2> plane) {
   std::vector<Place> places;
   for (int i = 0; i <= kSamples; ++i) {
@@ -69,7 +70,7 @@ std::vector<Place> turned(double x, double y, double degrees, double rise, std::
   return places;
 }
 
-// Through a point to an end (manual 73), 76)): the center is as far from all three.
+// Returns points through a passing point to an end (manual 73), 76)): the center is equally far from all three points.
 std::vector<Place> led_through(const std::vector<double>& n, double rise, std::array<std::size_t, 2> plane) {
   const double px = n[0], py = n[1], ex = n[2], ey = n[3], cross = 2 * (px * ey - py * ex);
   const double p = px * px + py * py, e = ex * ex + ey * ey;
@@ -170,7 +171,7 @@ TEST_P(PlannedSegments, AreWhatTheirLinesSay) {
     const PathRequest request{{segment}, {}};
     Profile boundless;
     const auto free = plan_path(request, from, Envelope(boundless, state, "tester", "operator"));
-    if (!free) continue;  // three points on a line
+    if (!free) continue;  // the three points are on a line
     const std::string text = segment_setter(*free, 1).line;
     const auto places = walked(read_line(text));
     const auto bounded = plan_path(request, from, Envelope(profile, state, "tester", "operator"));

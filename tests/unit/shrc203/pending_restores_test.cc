@@ -1,5 +1,5 @@
-// What is set back: the rules of the list, each with a case that fails without it. Lines as in manual 89) D:, 94) B:,
-// 96) O:, 97) to 101) T:.
+// Pending restores: each rule of the list, with a case that fails without it. Lines as in manual 89) D:, 94) B:, 96)
+// O:, 97) to 101) T:.
 #include "device/shrc203/state/pending_restores.h"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ void set(State& state, int axis, const SpeedSetting& speed) {
 Change change_of_outputs(int outputs) { return {{}, {}, outputs, {}}; }
 Change change_of_trigger(const Trigger& trigger) { return {{}, {}, {}, trigger}; }
 
-// Axes 1 and 2 at S 1000 F 50000 R 100, axis 3 of nobody; outputs off, no trigger; the device's first epoch.
+// All axes at S 1000 F 50000 R 100, axis 3 not controllable; outputs off, no trigger; the device's first epoch.
 class PendingRestoresTest : public testing::Test {
  protected:
   PendingRestoresTest() {
@@ -51,7 +51,7 @@ class PendingRestoresTest : public testing::Test {
     const auto command = what.command(setting, state);
     return command ? command->line : kNothing;
   }
-  // With the last value that was set, as it would be after the answer.
+  // Remembers the previous value and sets the new one, as after the controller's answer.
   void set_outputs(std::uint64_t lease, int outputs) {
     pending.remember(lease, change_of_outputs(outputs), state);
     state.outputs = outputs;
@@ -73,7 +73,7 @@ TEST_F(PendingRestoresTest, SpeedsOfAMotionByD) {
   const auto what = PendingRestores::of_motion({{1, kFirst}, {2, kOther}, {3, kFirst}});
   const struct {
     const char* name;
-    std::optional<SpeedSetting> one, two, three;  // as they are now; nothing: unknown
+    std::optional<SpeedSetting> one, two, three;  // present speeds; nullopt if unknown
     const char* line;
   } kCases[] = {
       {"as before", kFirst, kOther, kFirst, kNothing},
@@ -109,7 +109,7 @@ TEST_F(PendingRestoresTest, SpeedsOfTheOriginReturnByB) {
   EXPECT_EQ(line(what, Setting::speeds), kNothing);
 }
 
-// What is not known before is not restored.
+// A value that was unknown before the change is not restored.
 TEST_F(PendingRestoresTest, WhatIsUnknownIsNotRemembered) {
   state.axis(1).acceleration_ms.reset();
   state.axis(1).origin_speeds.reset();
@@ -119,7 +119,7 @@ TEST_F(PendingRestoresTest, WhatIsUnknownIsNotRemembered) {
   EXPECT_TRUE(pending.empty());
 }
 
-// What was there before the lease stays, and what it has set is what it has set at last.
+// The value to restore is the first one from before the lease; the lease's own value is the last one that it set.
 TEST_F(PendingRestoresTest, TheFirstValueBeforeAndTheLastThatWasSet) {
   state.outputs = 9;
   state.trigger = kByPulses;
@@ -136,7 +136,7 @@ TEST_F(PendingRestoresTest, TheFirstValueBeforeAndTheLastThatWasSet) {
   EXPECT_EQ(line(what, Setting::outputs), kNothing) << "32 no longer is";
 }
 
-// After what may have been a restart nothing is switched on, and nothing of somebody else's is replaced.
+// After a possible restart, nothing is switched on and no other caller's setting is replaced.
 TEST_F(PendingRestoresTest, OutputsByO) {
   const struct {
     const char* name;
@@ -199,7 +199,7 @@ TEST_F(PendingRestoresTest, TheTriggerByT) {
   }
 }
 
-// Whether it is still armed has to be known, for a scan; a lease's is restored all the same.
+// A scan's trigger is restored only if it is known to be still armed; a lease's is restored in any case.
 TEST_F(PendingRestoresTest, AScansTriggerIsReadFirstWhereItIsUnknown) {
   set_trigger(kAnna, kTimer);
   pending.remember_scan(kNone, kByPulses);
@@ -210,7 +210,7 @@ TEST_F(PendingRestoresTest, AScansTriggerIsReadFirstWhereItIsUnknown) {
   EXPECT_FALSE(pending.of_lease(kAnna).must_read_first(Setting::trigger, state));
 }
 
-// What is pending on an axis was there before what is set by now.
+// The value before the lease is the pending one, not the present one.
 TEST_F(PendingRestoresTest, SpeedsThatAMotionHasLeftAreNotTheLeases) {
   pending.keep(PendingRestores::of_motion({{1, kFirst}}));
   set(state, 1, kThird);
@@ -219,7 +219,7 @@ TEST_F(PendingRestoresTest, SpeedsThatAMotionHasLeftAreNotTheLeases) {
   EXPECT_EQ(line(pending.of_lease(kAnna), Setting::speeds), "D:AS1000F50000R100 S200F2000R30");
 }
 
-// What a scan has left armed is nobody's: while it is what the scan has armed.
+// A trigger that a scan has left armed belongs to no lease, as long as it is still the scan's.
 TEST_F(PendingRestoresTest, ATriggerThatAScanHasLeftIsNotTheLeases) {
   pending.remember_scan(kTimer, kByPulses);
   state.trigger = kByPulses;
@@ -252,7 +252,7 @@ TEST_F(PendingRestoresTest, AMotionTakesTheSpeedsOfItsAxesOnly) {
   EXPECT_THAT(pending.take(kTwo).speeds(), ElementsAre(std::pair(2, kThird)));
 }
 
-// A setting of somebody's own takes the place of what motions left; what is a lease's stays.
+// A caller's own setting replaces the pending restores of motions and scans; those of leases stay.
 TEST_F(PendingRestoresTest, WhatIsForgottenIsTheMotions) {
   pending.remember(kAnna, {kOne, kOne, 32, kTimer}, state);
   pending.keep(PendingRestores::of_motion({{1, kThird}, {2, kThird}}));
@@ -293,7 +293,7 @@ TEST_F(PendingRestoresTest, EachLeaseItsOwn) {
   EXPECT_FALSE(all.has_scan());
 }
 
-// D:, B: and T: wait for axes to be stationary, O: waits for none.
+// D:, B: and T: need stationary axes, O: does not.
 TEST_F(PendingRestoresTest, TheAxesThatMustBeStationary) {
   const struct {
     Change change;

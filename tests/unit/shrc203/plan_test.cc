@@ -13,7 +13,7 @@ using std::chrono::seconds;
 
 Quantity millimeters(std::int64_t digits, int decimals = 0) { return {{digits, decimals}, Unit::millimeters}; }
 
-// Three axes of 10 nm a pulse, S 1000 F 50000 R 100, at 0; axis 1 travels -1 mm to 1 mm at 0.2 mm/s at most.
+// Three axes with 10 nm a pulse and S 1000 F 50000 R 100, at 0; axis 1 travels from -1 mm to 1 mm at 0.2 mm/s at most.
 class PlanTest : public testing::Test {
  protected:
   PlanTest() {
@@ -140,7 +140,7 @@ TEST_F(PlanTest, SpeedsAreCheckedAndCapped) {
   EXPECT_EQ(refused(with(100, 200, 1001)), Reason::out_of_range);
 }
 
-// What somebody has left in the controller must not run faster than the configuration allows.
+// A speed that another program left in the controller must not exceed the configured maximum.
 TEST_F(PlanTest, TheDevicesOwnSpeedIsCappedToo) {
   const auto plan = move({{1, pulses(10), {}}}, false);
   ASSERT_TRUE(plan);
@@ -164,7 +164,7 @@ TEST_F(PlanTest, APathEndsWhereItsSegmentsLead) {
   EXPECT_EQ(plan->axes, AxisSet::of(2) | AxisSet::of(3));
 }
 
-// Manual 83): a straight line runs at its lower axis's S: 5,000 pulses at 5,000 pulses/s.
+// Manual 83): a straight line runs at S of its lower axis: 5,000 pulses at 5,000 pulses/s.
 TEST_F(PlanTest, ALineTakesItsLengthAtItsPathSpeed) {
   const auto plan = path({line(3000, 4000)});
   ASSERT_TRUE(plan);
@@ -174,7 +174,7 @@ TEST_F(PlanTest, ALineTakesItsLengthAtItsPathSpeed) {
   EXPECT_EQ(plan->segments[0].longest, seconds(1));
 }
 
-// 26,000/s on average for 0.2 s at either end, and 44,800 pulses at 25,000/s between.
+// Average speed 13,000 pulses/s for 0.2 s at each end, and 44,800 pulses at 25,000 pulses/s in between.
 TEST_F(PlanTest, OneAxisSpeedsUpAndSlowsDown) {
   Segment segment{{{2, pulses(50000), {}}}, false, pulses(25000), 200};
   const auto plan = path({segment});
@@ -185,7 +185,8 @@ TEST_F(PlanTest, OneAxisSpeedsUpAndSlowsDown) {
   EXPECT_EQ(plan->segments[0].move.axes[0].speed->acceleration_ms, 200);
 }
 
-// From 1,000/s by 490,000/s in a second: 15,700/s after 30 ms, when half of the 501 pulses are done.
+// Acceleration from 1,000 pulses/s by 490,000 pulses/s in a second: 15,700 pulses/s after 30 ms, at half of the 501
+// pulses.
 TEST_F(PlanTest, AShortWayNeverReachesF) {
   const auto plan = path({{{{2, pulses(501), {}}}, true, {}, {}}});
   ASSERT_TRUE(plan);
@@ -217,7 +218,7 @@ TEST_F(PlanTest, APathsRefusalNamesTheSegment) {
   EXPECT_THAT(plan.error().message, testing::StartsWith("segment 3: "));
 }
 
-// Also where a segment asks for a time only, its speed stays that of the caller, not of the controller.
+// A segment that requests only an acceleration time runs at the caller's maximum speed, not at the controller's speed.
 TEST_F(PlanTest, ASegmentWithoutASpeedIsNoFasterThanAllowed) {
   Segment segment;
   segment.moves.push_back({1, pulses(1000), {}});

@@ -9,7 +9,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A unit that is READY so long after its axis number: asked by `lag`, then every 5 ms. How many questions that took.
+// Returns the number of questions to a unit that is READY `ready` after its axis number: the first when `lag` says so,
+// then one every 5 ms.
 int questions(ReadyLag& lag, Duration ready) {
   int asked = 0;
   for (Duration at = lag.first_question();; at += milliseconds(5)) {
@@ -62,7 +63,7 @@ TEST(ReadyLagTest, FollowsAUnitThatBecomesFaster) {
   EXPECT_LE(lag.first_question(), milliseconds(10));
 }
 
-// It has another cause: a number that came too early, or a stop in between.
+// The delay has another cause: a number that came too early, or a stop in between.
 TEST(ReadyLagTest, WhatTakesTooLongIsNotSettling) {
   ReadyLag lag;
   lag.seen_busy(milliseconds(300));

@@ -16,7 +16,7 @@ SegmentPlan segment(Duration lasts, std::vector<AxisPlan> axes) {
 }
 SegmentPlan to_and_fro(Duration lasts) { return segment(lasts, {{1, 100, {}, {}}}); }
 
-// 10,000 baud: a millisecond a byte; answers come without delay.
+// 10,000 baud: a millisecond a byte; answers arrive without delay.
 class FeedingTest : public testing::Test {
  protected:
   FeedingTest() { timing.answered(0, 0, {}); }

@@ -52,7 +52,7 @@ TEST(RegistersUnread, WhatIsForgottenMeanwhileIsNotKnown) {
   EXPECT_FALSE(registers.known());
 }
 
-// Manual 85): what G starts.
+// Manual 85): registers that G starts.
 TEST(RegistersUnread, AsksForEveryRegister) {
   std::vector<std::string_view> questions;
   for (const Register reg : Registers::all()) questions.push_back(question_of(reg));
@@ -87,7 +87,7 @@ TEST_F(RegistersTest, ClearsTheAxesNamedOnly) {
   EXPECT_EQ(registers.set_in(Register::a), AxisSet::of(2));
 }
 
-// Nobody knows what becomes of a line or curve when GC: names some of its axes.
+// The effect on a line or curve is unknown if GC: names only a part of its axes.
 TEST_F(RegistersTest, ALineIsClearedWithAllItsAxes) {
   take("?:K", "A,1000,200");
   registers.cleared(AxisSet::of(1));
@@ -104,7 +104,7 @@ TEST_F(RegistersTest, InterpolationsNameTheirAxes) {
   EXPECT_EQ(registers.set_in(Register::e), AxisSet::of(1) | AxisSet::of(3));
 }
 
-// With ?:AXIS 4 (1+3) two fields come, and the second is axis 3's.
+// With ?:AXIS 4 (1+3) the answer has two fields, and the second is axis 3's.
 TEST_F(RegistersTest, FieldsOfTheControllableAxesOnly) {
   const AxisSet two = AxisSet::of(1) | AxisSet::of(3);
   take("?:M", "NS,500", two);

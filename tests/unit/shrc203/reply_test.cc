@@ -1,4 +1,4 @@
-// What can be an answer to which command, and what it says; the examples are the manual's.
+// Possible answers to each command, and their meaning; the examples are from the manual.
 #include "device/shrc203/command/reply.h"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ TEST(Reply, QuestionsAreNotAnsweredByOk) {
   }
 }
 
-// Design: these are matched by grammar alone, so none may ever be a bare axis number.
+// Design: these rows are matched by grammar alone, so none of their answers may be a bare axis number.
 TEST(Reply, RowsSeparatedByGrammarAreNeverABareAxisNumber) {
   for (const auto& row : command_table()) {
     if (row.separation != Separation::grammar) continue;
@@ -47,7 +47,7 @@ TEST(Reply, RowsSeparatedByGrammarAreNeverABareAxisNumber) {
   }
 }
 
-// With three axes their answers have commas, whatever they say.
+// With three axes the answers of these rows contain commas, whatever their values.
 TEST(Reply, RowsAskedForAllAxesHaveCommas) {
   for (const auto& row : command_table()) {
     if (row.separation != Separation::all_axes) continue;
@@ -75,7 +75,7 @@ TEST(Reply, NumbersInTheirRange) {
   EXPECT_FALSE(fits("?:C", "1,2,1"));
 }
 
-// Manual 8), 13), 18), 24), 22), 31): as they stand there.
+// Manual 8), 13), 18), 24), 22), 31): answers exactly as printed.
 TEST(Reply, TheManualsExamples) {
   EXPECT_TRUE(fits("?:V", "V2.00.000"));
   EXPECT_TRUE(fits("?:N", "SHRC-203"));

@@ -1,4 +1,4 @@
-// Which memory switches are reported as changed.
+// Memory switches that are reported as changed.
 #include "device/shrc203/state/switch_audit.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What must hold for every row of the command table, whatever its parameters: tried with random ones.
+// Properties of every row of the command table with any parameters, tested with random ones.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,13 +24,13 @@ namespace {
 
 constexpr std::uint64_t kSeed = 203'136;
 constexpr int kTrials = 400;
-// Of each row's trials as many are shown to every other row, which takes the longest.
+// Number of each row's trials that are also shown to every other row, which takes the longest.
 constexpr int kTrialsForOtherRows = 25;
 
 using Kind = Parameter::Kind;
 using Complaint = std::optional<std::string>;
 
-// Nothing where `written` is read as the row with these arguments, and sent as `line`.
+// Returns nullopt if `written` is read as the row with the sample's arguments, and sent as the sample's line.
 Complaint check_reading(const CommandRow& row, const Sample& sample, std::string_view written) {
   const auto command = parse_command(written);
   if (!command) return fmt::format("\"{}\" is refused: {}", written, command.error().message);
@@ -47,7 +47,7 @@ Complaint check_round_trip(const CommandRow& row, const Sample& sample) {
   return check_reading(row, sample, *line);
 }
 
-// As people write: each letter in either case, and some blanks after commas.
+// Returns the line as people write it: each letter in either case, and blanks after some commas.
 std::string loosened(std::string_view line, SampleGenerator& random) {
   std::string loose;
   for (const char c : line) {
@@ -64,7 +64,8 @@ Complaint check_claims(const CommandRow& row, const Sample& sample) {
   return {};
 }
 
-// Refused with out_of_range as arguments, and as a line where it still has the row's shape.
+// Checks that the value is refused with out_of_range as an argument, and also as a line if the line still has the row's
+// shape.
 Complaint check_refused(const CommandRow& row, const Sample& sample, std::size_t which, const std::string& value) {
   const Sample wrong = sample.with(which, value);
   const auto line = encode(row, wrong.arguments());
@@ -95,7 +96,7 @@ Complaint check_integers(const CommandRow& row, const Sample& sample) {
   return {};
 }
 
-// A number of pulses that says so itself, by the unit before it.
+// Checks numbers that are pulses according to the unit before them.
 Complaint check_pulses(const CommandRow& row, const Sample& sample) {
   for (std::size_t i = 1; i < sample.values.size(); ++i) {
     const Parameter& parameter = parameter_of(row, sample.values[i].first);
@@ -109,7 +110,7 @@ Complaint check_pulses(const CommandRow& row, const Sample& sample) {
   return {};
 }
 
-// Each row's trials until the first that fails: one failure a row is enough.
+// Runs each row's trials until the first failure: one failure a row is enough.
 template <class Check>
 void for_every_row(int trials, Check check) {
   for (const CommandRow& row : command_table()) {
@@ -148,7 +149,7 @@ TEST(TableProperties, PulsesBesideTheirRangeAreRefused) {
       kTrials, [](const CommandRow& row, const Sample& sample, SampleGenerator&) { return check_pulses(row, sample); });
 }
 
-// Each parameter that is shown to people can be given, and has a range or choices.
+// Each parameter that people see can be given, and has a range or choices.
 TEST(TableProperties, ParametersAreThoseOfTheFormat) {
   for (const CommandRow& row : command_table()) {
     for (const Parameter& parameter : row.parameters) {

@@ -10,7 +10,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Where the group that begins `format` ends.
+// Returns the offset at which the group at the beginning of `format` ends.
 std::size_t closing(std::string_view format, char open, char close) {
   int depth = 0;
   for (std::size_t i = 0; i < format.size(); ++i) {
@@ -87,7 +87,8 @@ void SampleGenerator::add(std::string_view letter) {
   }
   std::string value = draw(*parameter);
   if (letter == "u") pulses_ = value == "P" || value == "F";
-  // W stands for as many axes as the controller has; all repeated parts of a line agree on it.
+  // W means all axes of the controller, of which there are one to three; all repeated parts of a line agree on the
+  // number.
   if (letter == "a" && parameter->kind == Parameter::Kind::choice) {
     const auto axes = from_command_letter(value.front(), AxisSet::all());
     repeats_ = value == "W" ? 1 + below(3) : static_cast<std::size_t>(axes.value_or(AxisSet::of(1)).count());
@@ -116,7 +117,8 @@ std::string SampleGenerator::draw(const Parameter& parameter) {
   return {};
 }
 
-// S, F and ways in one unit each: a whole number of pulses, or in other units any decimal. F is not below its S.
+// Returns a value of S, F or a displacement: a whole number of pulses, or any decimal in other units. F is never below
+// its S.
 std::string SampleGenerator::decimal(const Parameter& parameter) {
   std::int64_t minimum = parameter.minimum;
   if (parameter.letter == "spdf") minimum = minimum_speed_ + 1;
@@ -126,7 +128,7 @@ std::string SampleGenerator::decimal(const Parameter& parameter) {
   return pulses_ || below(2) == 0 ? std::to_string(whole) : fraction(whole);
 }
 
-// Its ends, where mistakes are, more often than what lies between.
+// Returns the ends of the range, where mistakes are likely, more often than values in between.
 std::int64_t SampleGenerator::between(std::int64_t minimum, std::int64_t maximum) {
   switch (below(8)) {
     case 0:
@@ -138,14 +140,14 @@ std::int64_t SampleGenerator::between(std::int64_t minimum, std::int64_t maximum
   }
 }
 
-// 15 characters at most; its last digit is none that could be dropped.
+// Returns a decimal with at most 15 characters, whose last digit is not 0.
 std::string SampleGenerator::fraction(std::int64_t whole) {
   std::string digits;
   for (std::uint64_t left = below(4); left > 0; --left) digits += static_cast<char>('0' + below(10));
   return fmt::format("{}.{}{}", whole, digits, 1 + below(9));
 }
 
-// Numbers and letters between commas.
+// Returns numbers and letters, separated by commas.
 std::string SampleGenerator::text() {
   std::string out = std::to_string(below(1000));
   for (std::uint64_t left = below(10); left > 0; --left) {

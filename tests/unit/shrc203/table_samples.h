@@ -1,4 +1,4 @@
-// Random commands by the table's rows, for table_properties_test.cc.
+// Random commands from the table's rows, for table_properties_test.cc.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,15 @@ std::vector<std::string> words(std::string_view text);
 struct Sample {
   using Values = std::vector<std::pair<std::string, std::string>>;
   Values values;
-  std::vector<std::size_t> places;  // of each value in the line
-  std::string line;                 // put together here, not by the encoder
+  std::vector<std::size_t> places;  // offset of each value in the line
+  std::string line;                 // assembled here, not by the encoder
 
   Sample with(std::size_t which, std::string value) const;
   Arguments arguments() const;
 };
 
-// By its own reading of the format, so that a mistake of the encoder's is not made here, too.
+// A SampleGenerator makes random commands. It interprets the format itself, so that it does not repeat the encoder's
+// mistakes.
 class SampleGenerator {
  public:
   SampleGenerator(const CommandRow& row, std::uint64_t seed) : row_(row), random_(seed) {}

@@ -1,4 +1,4 @@
-// What is wrong with a caller's own lines, by what stands in them.
+// Errors in a caller's own lines that the text of the lines shows.
 #include "device/shrc203/planning/transaction_lines.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Where lines would lead, by the manual, and what the envelope has to say to that.
+// Positions to which lines would lead according to the manual, and the envelope's checks of them.
 #include "device/shrc203/planning/transaction_prediction.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using Lines = std::vector<std::string>;
 constexpr auto kUnknown = std::nullopt;
 
-// A pulse is 10 nm. The axes stand at 1000, 2000 and 3000 pulses, travel from -5 mm to 5 mm (500,000 pulses) at 2 mm/s
+// A pulse is 10 nm. The axes are at 1000, 2000 and 3000 pulses, travel from -5 mm to 5 mm (500,000 pulses) at 2 mm/s
 // (200,000 pulses/s) at most, and are set to S100F1000.
 class ForecastTest : public testing::Test {
  protected:
@@ -34,7 +34,7 @@ class ForecastTest : public testing::Test {
   struct Outcome {
     Result<void> result;
     Positions at;
-    std::size_t taken = 0;  // so many lines went before the one that was refused
+    std::size_t taken = 0;  // lines accepted before the refused one
   };
   Outcome forecast(const Lines& lines) const {
     const Envelope envelope(profile, state, "unix alice", "operator");
@@ -55,7 +55,8 @@ class ForecastTest : public testing::Test {
     EXPECT_TRUE(outcome.result) << outcome.result.error().message;
     return outcome.at;
   }
-  // The last line is refused, and no other; "TOO_FAST 1" where an axis is meant.
+  // Returns the reason for which the last line, and no earlier one, is refused, with the axis if there is one:
+  // "TOO_FAST 1".
   std::string refusal(const Lines& lines) const {
     const Outcome outcome = forecast(lines);
     if (outcome.result) return "none";
@@ -100,7 +101,7 @@ TEST_F(ForecastTest, StraightLines) {
   EXPECT_THAT(ends({"KP:C+U1+P2,S100F1000R200", "G:C"}), ElementsAre(1000, 2100, 3002));
 }
 
-// From the circle's center the axes stand at (-100, 200), and a quarter turn clockwise makes (200, 100) of that.
+// Relative to the circle's center, the axes start at (-100, 200); a quarter turn clockwise ends at (200, 100).
 TEST_F(ForecastTest, CurvesEndWhereTheirGeometrySays) {
   EXPECT_THAT(ends({"E:0A0+P100-P200", "G:A"}), ElementsAre(1000, 2000, 3000)) << "a whole circle";
   EXPECT_THAT(ends({"E:1B0+P100-P200D90", "G:B"}), ElementsAre(1300, 2000, 2900)) << "the manual's own, 72)";
@@ -118,7 +119,7 @@ TEST_F(ForecastTest, OneMotionBeginsWhereTheOneBeforeEnded) {
   EXPECT_THAT(ends({"MP:1+P10", "G:1", "MP:1+P20", "G:1"}), ElementsAre(1030, 2000, 3000)) << "a chain";
 }
 
-// Manual 2. 2): "Write in Overwrite"; 87): GC: deletes what M:, A:, E: and K: have set.
+// Manual 2. 2): "Write in Overwrite"; 87): GC: deletes the settings of M:, A:, E: and K:.
 TEST_F(ForecastTest, ASettingIsSetAnewOrDeleted) {
   EXPECT_THAT(ends({"M:1+P1000", "M:1+P5", "G:1"}), ElementsAre(1005, 2000, 3000));
   EXPECT_THAT(ends({"MP:1+P1000", "MP:1+P5", "G:1"}), ElementsAre(1005, 2000, 3000));
@@ -133,7 +134,7 @@ TEST_F(ForecastTest, ASettingIsSetAnewOrDeleted) {
   EXPECT_THAT(ends({"EP:1B0+P100-P200D90", "GC:B", "G:B"}), ElementsAre(1300, 2000, 2900));
 }
 
-// One of each, by its letter (manual 22) to 25) ?:E to ?:KP), whatever its axes: "Write in Overwrite" (2. 2)).
+// Each letter has one setting (manual 22) to 25) ?:E to ?:KP), whatever its axes: "Write in Overwrite" (2. 2)).
 TEST_F(ForecastTest, ALineOrCurveSetAnewIsGoneOnAllItsAxes) {
   EXPECT_THAT(ends({"K:A+P100+P100", "K:B+P7+P7", "G"}), ElementsAre(1007, 2000, 3007));
   EXPECT_THAT(ends({"KP:A+P100+P100", "KP:C+P7+P7", "G"}), ElementsAre(1000, 2007, 3007));
@@ -144,7 +145,7 @@ TEST_F(ForecastTest, ALineOrCurveSetAnewIsGoneOnAllItsAxes) {
   EXPECT_EQ(refusal({"M:2+P1", "G:2", "KP:A+P1+P1", "KP:B+P1+P1"}), "INVALID_REQUEST 2") << "which may have begun";
 }
 
-// Manual 87) does not say whether GC: for some of its axes deletes a line.
+// Manual 87) does not say whether GC: for some axes of a line deletes the line.
 TEST_F(ForecastTest, ALineDeletedInPartLeavesOpenWhereItsAxesEnd) {
   EXPECT_THAT(ends({"K:A+P1+P2", "GC:1", "M:3+P1", "G"}), ElementsAre(kUnknown, kUnknown, 3001));
   EXPECT_EQ(refusal({"K:A+P1+P300000", "GC:2", "MP:2+P300000", "G"}), "OUTSIDE_TRAVEL 2") << "where both run";
@@ -152,12 +153,12 @@ TEST_F(ForecastTest, ALineDeletedInPartLeavesOpenWhereItsAxesEnd) {
   EXPECT_THAT(ends({"K:A+P1+P2", "GC:3", "G"}), ElementsAre(1001, 2002, 3000)) << "none of its axes";
 }
 
-// Which of both the controller starts, or whether both, the manual does not say (86)).
+// The manual does not say which of the two settings the controller starts, or whether it starts both (86)).
 TEST_F(ForecastTest, WhereSeveralSettingsWaitTheEndIsNotKnown) {
   EXPECT_THAT(ends({"M:1+P10", "A:1+P20", "G:1"}), ElementsAre(kUnknown, 2000, 3000));
   EXPECT_THAT(ends({"M:1+P10", "MP:1+P20", "G:1"}), ElementsAre(kUnknown, 2000, 3000));
   EXPECT_THAT(ends({"A:1+P10", "KP:A+P1+P2", "G:A"}), ElementsAre(kUnknown, 2002, 3000));
-  // One setting of two axes may have gone for both.
+  // The setting of two axes may or may not have run, so both ends are unknown.
   EXPECT_THAT(ends({"K:A+P10+P20", "M:1+P5", "G:A"}), ElementsAre(kUnknown, kUnknown, 3000));
   EXPECT_THAT(ends({"E:0C0+P10+P20", "A:3+P5", "G:"}), ElementsAre(1000, kUnknown, kUnknown));
   EXPECT_EQ(refusal({"M:1+P10", "A:1+P20", "G:1", "M:1+P1"}), "POSITION_UNKNOWN 1");
@@ -177,7 +178,8 @@ TEST_F(ForecastTest, OriginReturnsEndAtZero) {
   EXPECT_THAT(ends({"HRT:1"}), ElementsAre(0, kUnknown, kUnknown));
 }
 
-// Manual 47): a sleeper returns to "the position before sleep"; 2. 3): what is in the prebuffer follows a wait's end.
+// Manual 47): a sleeping axis returns to "the position before sleep"; 2. 3): the prebuffer's setting starts when a wait
+// ends.
 TEST_F(ForecastTest, WaitsAndSleepMoveNothingThemselves) {
   EXPECT_THAT(ends({"SLEEP:1", "SLEEP:0"}), ElementsAre(1000, 2000, 3000));
   EXPECT_THAT(ends({"MP:1+P10", "SLEEP:1"}), ElementsAre(1000, 2000, 3000));
@@ -206,7 +208,7 @@ TEST_F(ForecastTest, EveryEndLiesWithinTheTravelInclusively) {
   EXPECT_EQ(refusal({"E:3A0N2+P100+P0+P250000"}), "OUTSIDE_TRAVEL 3");
 }
 
-// As of a typed move, the end counts; of a curve all of it.
+// A typed line must end within the travel, like a typed move; a curve must be within it throughout.
 TEST_F(ForecastTest, AWayBackMayBeginOutside) {
   start[0] = 600'000;
   for (const std::string line : {"M:1-P200000", "MP:1-P200000", "A:1+P400000", "K:A-P200000+P0", "KP:A-P200000+P0"}) {
@@ -219,17 +221,17 @@ TEST_F(ForecastTest, AWayBackMayBeginOutside) {
 TEST_F(ForecastTest, FromWhereTheMotionsBeforeHaveLed) {
   EXPECT_EQ(refusal({"M:1+P300000", "G:1", "M:1+P300000"}), "OUTSIDE_TRAVEL 1");
   EXPECT_EQ(refusal({"A:2+P400000", "G:2", "K:A+P1+P100001"}), "OUTSIDE_TRAVEL 2");
-  // Set where it was allowed, and started where it is not.
+  // The setting was allowed when it was set, but not from where it starts.
   EXPECT_EQ(refusal({"M:1+P300000", "MP:1+P300000", "G:1"}), "OUTSIDE_TRAVEL 1");
   EXPECT_EQ(refusal({"AP:1+P400000", "E:0A0+P100000+P0", "G:A"}), "OUTSIDE_TRAVEL 1");
 }
 
-// A circle ends where it began, and leads out by its diameter meanwhile.
+// A circle ends where it began, but extends by its diameter in between.
 TEST_F(ForecastTest, AllOfACurveLiesWithinTheTravel) {
   EXPECT_THAT(ends({"E:0A0+P249500+P0", "G:A"}), ElementsAre(1000, 2000, 3000));
   EXPECT_EQ(refusal({"E:0A0+P249501+P0"}), "OUTSIDE_TRAVEL 1");
   EXPECT_EQ(refusal({"EP:0B1+P0-P251501"}), "OUTSIDE_TRAVEL 3");
-  // Over the top, from left to right, is clockwise; the other direction would lead below (manual 73)).
+  // Clockwise, the arc leads from left to right over the top; the other direction would lead below (manual 73)).
   profile.axes[1].travel_minimum = pulses(1950);
   EXPECT_THAT(ends({"E:2A0+P100+P100+P200+P0", "G:A"}), ElementsAre(1200, 2000, 3000));
   EXPECT_EQ(refusal({"E:2A1+P100+P100+P200+P0"}), "OUTSIDE_TRAVEL 2");
@@ -274,7 +276,7 @@ TEST_F(ForecastTest, ALineRunsAtTheLowestSpeedOfItsLowerAxis) {
   ends({"KP:A+P1+P1,S100F1000R200", "G:A"});
 }
 
-// S may have been set again between the setting and the start.
+// S may have changed between the setting and the start.
 TEST_F(ForecastTest, ALineRunsAtTheSpeedOfItsStart) {
   profile.axes[1].maximum_speed = pulses(100'000);
   EXPECT_EQ(refusal({"K:A+P1+P1", "D:1S150000F150000R100", "G:A"}), "TOO_FAST 2");
@@ -282,7 +284,7 @@ TEST_F(ForecastTest, ALineRunsAtTheSpeedOfItsStart) {
   ends({"K:A+P1+P1", "D:1S100000F150000R100", "G:A"});
 }
 
-// 6283 pulses around and 1000, or 6283, along: 0.16, or 0.71, of the speed.
+// 6283 pulses around, and 1000 or 6283 along: 0.16 or 0.71 of the speed.
 TEST_F(ForecastTest, TheAxisOfAHelixMakesItsShareOfTheSpeed) {
   speeds[1].minimum = 100'000;
   profile.axes[2].maximum_speed = pulses(50'000);
@@ -345,7 +347,7 @@ TEST_F(ForecastTest, LinesOfPulsesThatAreNotEquallyLong) {
   ends({"K:B+P1+P1", "G:B", "M:A+P1+P1", "G:A"});
 }
 
-// In a chain the first may have begun by itself, or be overwritten.
+// In a chain, the first setting may have started by itself, or may be overwritten.
 TEST_F(ForecastTest, ASecondPrebufferSettingBehindAStartLeavesOpenWhereItBegins) {
   EXPECT_EQ(refusal({"MP:1+P1", "G:1", "MP:1+P1", "MP:1+P1"}), "INVALID_REQUEST 1");
   EXPECT_EQ(refusal({"HRT:1", "MP:1+P1", "AP:1+P1"}), "INVALID_REQUEST 1");

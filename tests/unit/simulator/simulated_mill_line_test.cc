@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// The built-in mill with a host at the other end of its line.
+// The built-in mill, with the test as the host at the other end of its line.
 class Mill {
  public:
   Mill(link_test::EventLoop& loop, const std::string& keys) : loop_(loop) {
@@ -47,7 +47,7 @@ class Mill {
     return state && state->find(what) != std::string::npos;
   }
 
-  // Looks until it does.
+  // Waits until the mill shows `what`; returns false after kPatience.
   bool will_show(const std::string& what) {
     const TimePoint limit = monotonic_now() + link_test::kPatience;
     while (monotonic_now() < limit) {
@@ -101,7 +101,7 @@ TEST(SimulatedMillLine, HasTheOptionsOfTheConfiguration) {
   EXPECT_TRUE(ignoring.shows("paused=no"));
 }
 
-// The usual one needs half a second, the slower one eleven times as long.
+// The usual mill needs half a second, the slower one eleven times as long.
 TEST(SimulatedMillLine, IsAsMuchSlowerAsTheConfigurationSays) {
   link_test::EventLoop loop;
   Mill usual(loop, ""), slower(loop, "slower = 1000\n");

@@ -1,4 +1,4 @@
-// The simulated SHRC-203's arcs as motion (manual 71) to 82)), against the geometry of the circle.
+// Arcs of the simulated SHRC-203 as motion (manual 71) to 82)), against the geometry of the circle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ void expect_at(const SimulatorBench& bench, std::int64_t x, std::int64_t y, std:
 
 TEST(SimulatorArcs, APerfectCircleFollowsTheCircleAndEndsWhereItBegan) {
   SimulatorBench bench;
-  // Radius 5000 about (0, 5000): from its lowest point, CW is to the left first. 31415.9 pulses at 1000 pulses/s.
+  // Radius 5000 around (0, 5000): from the lowest point, CW goes left first. 31415.9 pulses at 1000 pulses/s.
   start(bench, "E:0A0+P0+P5000");
   for (int i = 1; i <= 31; ++i) {
     bench.wait(1s);
@@ -53,7 +53,7 @@ TEST(SimulatorArcs, CcwGoesTheOtherWay) {
 
 TEST(SimulatorArcs, TheManualsCircleTakesItsTime) {
   SimulatorBench bench;
-  // Radius 0.05 mm * sqrt(2) about (0.05 mm, -0.05 mm), 10 nm a pulse, at 0.5 mm/s.
+  // Radius 0.05 mm * sqrt(2) around (0.05 mm, -0.05 mm), 10 nm a pulse, at 0.5 mm/s.
   ASSERT_EQ(bench.ask("EP:0A0M0.05-M0.05,S0.5F5R50"), "OK");
   ASSERT_EQ(bench.ask("G:A"), "OK");
   EXPECT_EQ(bench.ask("?:EP"), "NS");
@@ -93,7 +93,7 @@ TEST(SimulatorArcs, AnglesHaveDecimalsAndBothSenses) {
 TEST(SimulatorArcs, ThePassingPointDecidesTheSense) {
   for (const auto* direction : {"0", "1"}) {
     SimulatorBench bench;
-    // A quarter of the circle about (1000, 0), from its left point over its 45 degrees to its lowest.
+    // A quarter of the circle around (1000, 0), from its left point through 45 degrees to its lowest point.
     start(bench, "E:2A" + std::string(direction) + "+P293-P707+P1000-P1000");
     bench.wait(785ms);
     EXPECT_NEAR(static_cast<double>(bench.device.position(1)), 293, 2);
@@ -119,7 +119,7 @@ TEST(SimulatorArcs, TheManualsPassingPointsArePassed) {
 
 TEST(SimulatorArcs, MoreThanHalfACircleThroughAPoint) {
   SimulatorBench bench;
-  // Three quarters of the circle about (1000, 0), from its left point over its right one to its lowest, CW.
+  // Three quarters of the circle around (1000, 0), CW from its left point through its right one to its lowest point.
   start(bench, "E:2A0+P2000+P0+P1000-P1000");
   bench.wait(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(kPi / 2)));
   expect_at(bench, 1000, 1000, 0);
@@ -180,7 +180,7 @@ TEST(SimulatorArcs, PrebuffersFollowEachOther) {
   ASSERT_EQ(bench.ask("EP:1A0+P1000+P0D180"), "OK");
   ASSERT_EQ(bench.ask("G"), "OK");
   ASSERT_EQ(bench.ask("EP:1A1+P1000+P0D180"), "OK_D");
-  ASSERT_EQ(bench.ask("EP:2A0+P1000+P1000+P2000+P0"), "OK_D");  // replaces it
+  ASSERT_EQ(bench.ask("EP:2A0+P1000+P1000+P2000+P0"), "OK_D");  // replaces the previous setting
   EXPECT_EQ(bench.rest(), "1 2 1 2");
   expect_at(bench, 4000, 0, 0);
   EXPECT_EQ(bench.device.starts(1), 2);
@@ -245,7 +245,7 @@ TEST(SimulatorArcs, ALimitSensorBesideTheCircleStopsNothing) {
 
 TEST(SimulatorArcs, ASensorPushedAheadStopsItWhenItTurnsThere) {
   SimulatorBench bench;
-  start(bench, "E:0A0+P0+P5000");  // X goes to the left first, and turns after a quarter
+  start(bench, "E:0A0+P0+P5000");  // X goes left first, and turns back after a quarter
   bench.wait(1s);
   bench.device.set_limit(1, 1, true, bench.now());
   EXPECT_EQ(bench.ask("!:"), "B");

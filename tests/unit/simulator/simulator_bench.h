@@ -1,4 +1,4 @@
-// A simulated SHRC-203 in virtual time, with what it says and when.
+// A simulated SHRC-203 in virtual time, with its output and the times of the output.
 #pragma once
 
 #include <stdexcept>
@@ -27,7 +27,8 @@ class SimulatorBench : private ByteLink {
     device.link_up(now_);
   }
 
-  // Everything the device writes in answer to one line at this instant, CR LF written as a blank between lines.
+  // Returns everything the device writes at this instant in answer to one line, with a blank between lines instead of
+  // CR LF.
   std::string ask(std::string_view line) { return send(std::string(line) + "\r\n"); }
 
   std::string send(std::string_view bytes) {
@@ -35,7 +36,7 @@ class SimulatorBench : private ByteLink {
     return heard();
   }
 
-  // Runs from event to event for so long; what was said meanwhile.
+  // Runs from event to event for `time`, and returns the output.
   std::string wait(Duration time) {
     const TimePoint until = now_ + time;
     for (auto next = device.next_deadline(); next && *next <= until; next = device.next_deadline()) step(*next);
@@ -43,7 +44,7 @@ class SimulatorBench : private ByteLink {
     return heard();
   }
 
-  // Until nothing more happens by itself.
+  // Runs until no event is due, and returns the output.
   std::string rest() {
     for (auto next = device.next_deadline(); next; next = device.next_deadline()) step(*next);
     return heard();

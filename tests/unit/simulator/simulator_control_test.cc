@@ -1,4 +1,4 @@
-// What a person at the simulated device does, as lines of text.
+// Actions of a person at the simulated device, as lines of text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class SimulatorControl : public testing::Test {
  protected:
   std::string say(std::string_view line) { return control_reply(control(bench.device, line, bench.now())); }
 
-  // The status of axis 1, in hexadecimal (manual 7) SRQ:S), and whether it is BUSY.
+  // Returns the status of axis 1 in hexadecimal (manual 7) SRQ:S), and R or B for READY or BUSY.
   std::string status() { return bench.ask("SRQ:1S"); }
 
   std::vector<std::string> usages() {
@@ -56,7 +56,7 @@ TEST_F(SimulatorControl, TheReadmeHasEveryUsage) {
   for (const std::string& usage : usages()) EXPECT_THAT(readme.str(), HasSubstr("\n    " + usage + "\n"));
 }
 
-// Every word that a usage leaves open, at every value of a choice.
+// Tries every usage with each value of its choices.
 TEST_F(SimulatorControl, EveryUsageCanBeSaid) {
   for (const std::string& usage : usages()) {
     std::vector<std::string> lines = {""};
@@ -171,7 +171,7 @@ TEST_F(SimulatorControl, LimitSensors) {
   EXPECT_EQ(say("position"), "ok 0 0 0");
 }
 
-// Manual 5): bits 3, 4, 5, 7, 13 and 15. Each is an error stop, as S9 is, for which there is no bit.
+// Manual 5): bits 3, 4, 5, 7, 13 and 15. Each error stops the axis, and so does S9, which has no bit.
 TEST_F(SimulatorControl, ErrorsStopTheAxis) {
   struct Case {
     std::string name;
@@ -199,7 +199,7 @@ TEST_F(SimulatorControl, ErrorsStopTheAxis) {
   }
 }
 
-// Manual 5): bits 10, 11, 12, 14, 16, 22, 23 and 24, beside "normal".
+// Manual 5): bits 10, 11, 12, 14, 16, 22, 23 and 24, in addition to "normal".
 TEST_F(SimulatorControl, FlagsShowInTheStatus) {
   struct Case {
     std::string name;
@@ -236,7 +236,7 @@ TEST_F(SimulatorControl, FlagsOfAnAxisThatMoves) {
   EXPECT_EQ(status(), "20A001,R");
 }
 
-// Manual 32): E where CONFIG is on and could not be read.
+// Manual 32): E if CONFIG is on and could not be read.
 TEST_F(SimulatorControl, ConfigErrorShowsInAcs) {
   EXPECT_EQ(say("flag 2 config on"), "ok");
   EXPECT_EQ(bench.ask("?:ACS"), "0,0,0");
@@ -284,7 +284,7 @@ TEST_F(SimulatorControl, PowerCycle) {
   EXPECT_EQ(bench.ask("?:N"), "SHRC-203");
 }
 
-// What is lost is lost both ways: what was sent, a completion, and the end of half a line.
+// Bytes are lost in both directions: sent lines, a completion, and the end of half a line.
 TEST_F(SimulatorControl, Unplugged) {
   EXPECT_EQ(bench.send("MP:1+P50\r\nG:1\r\n"), "OK OK");
   EXPECT_EQ(say("unplug 2.5"), "ok");
@@ -317,7 +317,7 @@ TEST_F(SimulatorControl, DelayAndStuck) {
   EXPECT_EQ(bench.wait({}), "2106001001");
 }
 
-// Values are those of the time given, not of the last byte on the line.
+// Values are those of the given time, not of the last byte on the line.
 TEST_F(SimulatorControl, LooksAtTheTimeGiven) {
   EXPECT_EQ(bench.send("M:1+P50000\r\nG:1\r\n"), "OK OK");
   const TimePoint later = bench.now() + seconds(10);
@@ -325,7 +325,7 @@ TEST_F(SimulatorControl, LooksAtTheTimeGiven) {
   EXPECT_EQ(control(bench.device, "busy 1", later).value(), "no");
 }
 
-// For a caller that offers the same by other means than text.
+// Reasons are for callers that offer the same actions by other means than text.
 TEST_F(SimulatorControl, RefusalsHaveReasons) {
   const auto refused = control(bench.device, "limit 9 cw on", bench.now());
   ASSERT_FALSE(refused);

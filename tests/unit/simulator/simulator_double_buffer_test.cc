@@ -1,4 +1,4 @@
-// The double buffer as manual section 2 has it, under the first value of every option.
+// The double buffer of manual section 2, with the first value of every option.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// One second for 1000 pulses on every axis.
+// 1000 pulses take one second on every axis.
 class SimulatorDoubleBuffer : public ::testing::Test {
  protected:
   SimulatorDoubleBuffer() { bench.ask("D:WS1000F1000R1 S1000F1000R1 S1000F1000R1"); }

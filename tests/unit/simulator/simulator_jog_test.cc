@@ -1,4 +1,4 @@
-// How a simulated axis jogs (manual 88) J:), and what JD: changes while it does (manual 93)).
+// Jogging of a simulated axis (manual 88) J:), and the changes that JD: makes during a jog (manual 93)).
 #include <gtest/gtest.h>
 
 #include "device/shrc203/simulator/motion/motion_profile.h"
@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 constexpr Duration kSettlingTime = 5ms;
 
-// S 1000, F 11000, R 100 ms on every axis: each ramp is 100000 pulses/s^2 steep.
+// S 1000, F 11000, R 100 ms on every axis: each ramp has a slope of 100000 pulses/s^2.
 class Bench : public SimulatorBench {
  public:
   explicit Bench(const Settings& settings = {}, Options options = {}) : SimulatorBench(settings, std::move(options)) {
@@ -25,7 +25,7 @@ class Bench : public SimulatorBench {
 };
 
 TEST(MotionProfile, ChangesUpAndDownAndGoesOn) {
-  // 1000 to 6000 takes 50 ms and (1000 + 6000) / 2 * 0.05 = 175 pulses; the other 6000 one second more.
+  // 1000 to 6000 takes 50 ms and (1000 + 6000) / 2 * 0.05 = 175 pulses; the other 6000 take one second more.
   const auto up = MotionProfile::changing(6175, 1000, 6000, {1000, 11000, 100});
   EXPECT_EQ(up.duration(), 1050ms);
   EXPECT_NEAR(up.speed_at(25ms), 3500, 1e-6);
@@ -90,7 +90,7 @@ TEST(SimulatorJog, RunsUntilStoppedAndTellsNoCompletion) {
   bench.start_jog("1", "-");
   EXPECT_EQ(bench.wait(1000s), "");
   EXPECT_EQ(bench.ask("!:"), "B");
-  ASSERT_EQ(bench.ask("L:1"), "OK");  // no faster than S: at once
+  ASSERT_EQ(bench.ask("L:1"), "OK");  // no faster than S, so it stops at once
   EXPECT_EQ(bench.rest(), "");
   EXPECT_EQ(bench.elapsed(), 1000s + kSettlingTime);
   EXPECT_EQ(bench.ask("Q:"), "-  1000000,+        0,+        0,K,K,R");
@@ -149,7 +149,7 @@ TEST(SimulatorJog, MayBeSlowerThanS) {
   EXPECT_EQ(bench.ask("?:D1"), "S1000F1000R100");  // F is not lower than S
 }
 
-// 2 ms are 0.333 + 0.667 pulses: all would be lost if each change began at a whole pulse.
+// Every 2 ms are 0.333 + 0.667 pulses, which would be lost if each change began at a whole pulse.
 TEST(SimulatorJog, LosesNoPulseHoweverOftenItChanges) {
   SimulatorBench bench;
   bench.ask("D:1S1000F1000R100");  // no ramps
@@ -165,7 +165,7 @@ TEST(SimulatorJog, LosesNoPulseHoweverOftenItChanges) {
   }
 }
 
-// The same speed is requested again and again at odd times, during its ramp and after it.
+// The same speed is requested repeatedly at odd times, during its ramp and after it.
 TEST(SimulatorJog, IsWhereAnUndisturbedOneIs) {
   Bench disturbed, undisturbed;
   for (Bench* bench : {&disturbed, &undisturbed}) {
@@ -181,7 +181,7 @@ TEST(SimulatorJog, IsWhereAnUndisturbedOneIs) {
 }
 
 TEST(SimulatorJog, TakesTheManualsOverrides) {
-  // 10 nm a pulse: 0.01 mm/s are 1000 pulses/s. Each line, and the maximum speeds it leaves behind.
+  // 10 nm a pulse: 0.01 mm/s are 1000 pulses/s. Each row is a line and the maximum speeds after it.
   for (const auto& [line, speeds] : Settings{{"JD:1F1000", "1000,11000,11000"},
                                              {"JD:2F2000", "11000,2000,11000"},
                                              {"JD:3F3000", "11000,11000,3000"},
@@ -206,7 +206,7 @@ TEST(SimulatorJog, EachAxisHasAnOverrideOfItsOwn) {
   bench.start_jog("B", "+-");
   ASSERT_EQ(bench.ask("JD:BF6000F2000"), "OK");
   bench.wait(1050ms);
-  // 175 in 50 ms and 6000; (1000 + 2000) / 2 * 0.01 = 15 in 10 ms and 2000 * 1.04.
+  // Axis 1: 175 in 50 ms, and 6000. Axis 3: (1000 + 2000) / 2 * 0.01 = 15 in 10 ms, and 2000 * 1.04.
   EXPECT_EQ(bench.ask("Q:"), "+     6175,+        0,-     2095,K,K,B");
 }
 
@@ -225,7 +225,7 @@ TEST(SimulatorJog, AnOverrideIsRefusedUnlessEveryAxisJogs) {
   Bench bench;
   EXPECT_EQ(bench.ask("JD:1F2000"), "NG");
   bench.ask("J:1+");
-  EXPECT_EQ(bench.ask("JD:1F2000"), "NG");  // set, not started
+  EXPECT_EQ(bench.ask("JD:1F2000"), "NG");  // set, but not started
   bench.ask("G:1");
   bench.ask("M:2+P100000");
   bench.ask("G:2");
@@ -245,7 +245,7 @@ TEST(SimulatorJog, AStopDeceleratesAndCannotBeOverridden) {
   ASSERT_EQ(bench.device.position(1), 175);
   ASSERT_EQ(bench.ask("L:1"), "OK");
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");
-  bench.wait(50ms);  // 6000 down to 1000, and stationary: 175
+  bench.wait(50ms);  // 6000 down to 1000, then stationary: 175
   EXPECT_EQ(bench.device.position(1), 350);
   EXPECT_EQ(bench.ask("!:1S"), "B");
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");
@@ -262,7 +262,7 @@ TEST(SimulatorJog, AStopInTheMidstOfARampTurnsItRound) {
   bench.wait(40ms);  // up to 5000: (1000 + 5000) / 2 * 0.04 = 120
   ASSERT_EQ(bench.device.position(1), -120);
   ASSERT_EQ(bench.ask("L:"), "OK");
-  bench.rest();  // and the same down again
+  bench.rest();  // the same ramp down again
   EXPECT_EQ(bench.elapsed(), 80ms + kSettlingTime);
   EXPECT_EQ(bench.device.position(1), -240);
 }

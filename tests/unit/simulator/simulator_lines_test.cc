@@ -1,4 +1,4 @@
-// How the simulated SHRC-203 takes its lines: in every form that clients were seen to send.
+// Lines that the simulated SHRC-203 accepts, in every form that clients were seen to send.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"

@@ -1,4 +1,4 @@
-// The memory switches of the simulated SHRC-203: their edit mode, and what they bring about at power-on.
+// Memory switches of the simulated SHRC-203: their edit mode, and their effects at power-on.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -13,7 +13,7 @@ void power_cycle(SimulatorBench& bench) {
   bench.wait(1s);
 }
 
-// Sets these, saves them and switches off and on.
+// Sends the lines in edit mode, saves them and cycles the power.
 void keep(SimulatorBench& bench, std::initializer_list<const char*> lines) {
   ASSERT_EQ(bench.ask("MS:ON"), "OK");
   for (const char* line : lines) ASSERT_EQ(bench.ask(line), "OK") << line;
@@ -187,16 +187,16 @@ TEST(SimulatorMemorySwitches, GeneralSaysHowItComesOn) {
 
 TEST(SimulatorMemorySwitches, SpeedsFollowTheSpeedSelected) {
   SimulatorBench bench;
-  // SPEED21 stands behind the three of SPEED1, each S, F and R.
+  // SPEED21 comes after the three entries of SPEED1, each with S, F and R.
   keep(bench, {"MS:SET,5,10,200", "MS:SET,5,11,3000", "MS:SET,5,12,40"});
   EXPECT_EQ(bench.ask("?:D1"), "S1000F50000R100");
   keep(bench, {"MS:SET,5,0,1"});
   EXPECT_EQ(bench.ask("?:D"), "S200F3000R40,S1000F50000R100,S1000F50000R100");
-  keep(bench, {"MS:SET,5,11,100"});  // F below its S
+  keep(bench, {"MS:SET,5,11,100"});  // F is below S
   EXPECT_EQ(bench.ask("?:D1"), "S100F100R40");
 }
 
-// A public client sets these three for its origin returns.
+// A public client sets these three values for its origin returns.
 TEST(SimulatorMemorySwitches, OriginSpeedsStandFromNumberNine) {
   SimulatorBench bench;
   keep(bench, {"MS:SET,6,9,2000", "MS:SET,6,12,2000", "MS:SET,6,15,2000"});
@@ -216,7 +216,7 @@ TEST(SimulatorMemorySwitches, AxisAndDriverSayWhatAPulseIsAndItsName) {
   EXPECT_EQ(bench.ask("Q:S"), "U+0,U+0,U+0,1,1,1,R,R,R");
 }
 
-// Manual 10).
+// The formula is in manual 10).
 TEST(SimulatorMemorySwitches, BaseRateAndDivideAreThoseOfTheManualsFormula) {
   SimulatorBench bench;
   keep(bench, {"MS:SET,3,6,200", "MS:SET,4,0,2000"});

@@ -1,4 +1,4 @@
-// How simulated axes move: profiles, ends, limits, origin, stops.
+// Motion of simulated axes: profiles, ends, limits, origin, stops.
 #include <gtest/gtest.h>
 
 #include "device/shrc203/simulator/motion/motion_profile.h"
@@ -64,7 +64,7 @@ TEST(SimulatorMotion, MovesAsTheSpeedsSayAndSettles) {
   EXPECT_EQ(bench.ask("G:1"), "NG");
 }
 
-// Manual 56): the time until READY after positioning is complete.
+// Manual 56): W: sets the time from the end of positioning to READY.
 TEST(SimulatorMotion, WaitsBeforeReadyAsWSays) {
   SimulatorBench bench;
   bench.ask("W:3");
@@ -151,7 +151,7 @@ TEST(SimulatorMotion, FindsTheMechanicalOrigin) {
   EXPECT_EQ(bench.rest(), "1 2 3");
   EXPECT_LT(bench.elapsed(), 10s);
   EXPECT_EQ(bench.ask("Q:SP"), "P+0,P+0,P+0,1000001,1000001,1000001,R,R,R");
-  // From the far end, and the same place again.
+  // From the far end, the origin is at the same place again.
   bench.ask("M:1+P2090000");
   bench.ask("G:1");
   bench.rest();
@@ -250,7 +250,7 @@ TEST(SimulatorMotion, ALimitSensorStopsTheWholeLine) {
   bench.rest();
   EXPECT_EQ(bench.device.position(1), 1500);
   EXPECT_EQ(bench.device.position(2), -2000);
-  EXPECT_EQ(bench.ask("SRQ:AS"), "1,100080,R,R");  // bits 8 and 21 on axis 2 alone
+  EXPECT_EQ(bench.ask("SRQ:AS"), "1,100080,R,R");  // bits 8 and 21, on axis 2 alone
 }
 
 TEST(SimulatorMotion, LimitStopLettersAreThoseOfTheStatusField) {
@@ -304,10 +304,10 @@ TEST(SimulatorMotion, EmergencyStopLatchesUntilCancelled) {
   EXPECT_EQ(bench.ask("M:1+P1"), "OK");
   EXPECT_EQ(bench.ask("M:2+P1"), "NG");
   bench.device.press_emergency(bench.now());
-  EXPECT_EQ(bench.ask("SRQ:1S"), "22,R");  // bit 2 is the NG before
+  EXPECT_EQ(bench.ask("SRQ:1S"), "22,R");  // bit 2 is from the NG before
 }
 
-// Manual 53): releases the positioning incomplete state, here the wait of W:.
+// Manual 53): BEC: releases the positioning incomplete state, here the wait of W:.
 TEST(SimulatorMotion, BecEndsTheWaitForReady) {
   SimulatorBench bench;
   bench.ask("W:100");

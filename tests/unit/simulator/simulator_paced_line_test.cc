@@ -1,4 +1,4 @@
-// A device behind a line that takes time.
+// A device on a line with a transfer time.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -109,11 +109,11 @@ TEST(PacedLine, WhatWasWrittenBeforeTheLineClosedStillArrives) {
   host.line.link_down(at(1ms), "closed");
   host.line.link_up(at(2ms));
   host.run_to(1s);
-  EXPECT_EQ(host.text(), "");  // the answers were its predecessor's
+  EXPECT_EQ(host.text(), "");  // the answers belonged to the closed line
   EXPECT_EQ(host.simulator->position(1), 1000);
 }
 
-// What is done to the device beside its line knows the device's time, and what follows goes over the line.
+// An action that does not come over the line runs at the device's own time, and later answers go over the line.
 TEST(PacedLine, TheDeviceIsTouchedInItsOwnTime) {
   Host host({10000, 0ms, 10});
   host.run_to(0s);

@@ -1,4 +1,4 @@
-// What a person at the simulated device can do, and what can break in it.
+// Actions of a person at the simulated device, and faults of the device.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -9,7 +9,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-// Bits of the status as manual 5) Q:S numbers them: 3 is 4, 4 is 8, 5 is 10.
+// Hexadecimal status for the bits that manual 5) Q:S numbers: 4 for bit 3, 8 for bit 4, 10 for bit 5.
 TEST(SimulatorPanel, ErrorsShowInTheStatusAndStopTheAxis) {
   struct Case {
     AxisError error;
@@ -29,7 +29,7 @@ TEST(SimulatorPanel, ErrorsShowInTheStatusAndStopTheAxis) {
     EXPECT_EQ(bench.ask("SRQ:"), "K,R,R");
     EXPECT_EQ(bench.ask("M:1+P1"), "NG");
     EXPECT_EQ(bench.ask("M:2+P1"), "OK");
-    // Manual 53): what BEC: cancels are limit errors, overflow errors and the emergency stop.
+    // Manual 53): BEC: cancels limit errors, overflow errors and the emergency stop.
     EXPECT_EQ(bench.ask("BEC:1"), "OK");
     const bool cleared = shown.error == AxisError::overflow;
     EXPECT_EQ(bench.ask("SRQ:1S"), cleared ? "1,R" : std::string(shown.status) + ",R");
@@ -39,7 +39,7 @@ TEST(SimulatorPanel, ErrorsShowInTheStatusAndStopTheAxis) {
   }
 }
 
-// Manual 46): a reboot. What it ends in are the memory switches; the stage stays where it is.
+// Manual 46): a reboot. The memory switches decide its end state; the stage does not move.
 TEST(SimulatorPanel, ComesBackAsItsMemorySwitchesSay) {
   SimulatorBench bench;
   EXPECT_EQ(bench.send("M:1+P700\r\nG:1\r\n"), "OK OK");
@@ -58,7 +58,7 @@ TEST(SimulatorPanel, ComesBackAsItsMemorySwitchesSay) {
   EXPECT_EQ(bench.ask("?:FMT"), "HIT");
 }
 
-// In HIT a few answers have other shapes; most commands are unknown.
+// In HIT format a few answers have other shapes, and most commands are unknown.
 TEST(SimulatorPanel, Format) {
   SimulatorBench bench;
   EXPECT_EQ(bench.send("M:1+P50000\r\nG:1\r\n"), "OK OK");
@@ -72,7 +72,7 @@ TEST(SimulatorPanel, Format) {
   EXPECT_EQ(bench.ask("!:S"), "B,R,R");
 }
 
-// Manual 47): not while BUSY; what needs a motor is refused.
+// Manual 47): sleep is refused while BUSY; commands that need a motor are refused during sleep.
 TEST(SimulatorPanel, Sleep) {
   SimulatorBench bench;
   EXPECT_EQ(bench.send("M:1+P50000\r\nG:1\r\n"), "OK OK");
@@ -86,7 +86,7 @@ TEST(SimulatorPanel, Sleep) {
   EXPECT_EQ(bench.ask("M:1+P1"), "OK");
 }
 
-// Manual 1), 43): what *IDN? and ?:SN say.
+// Manual 1), 43): answers to *IDN? and ?:SN.
 TEST(SimulatorPanel, AnotherUnit) {
   SimulatorBench bench;
   bench.device.set_serial_number("2106001002");

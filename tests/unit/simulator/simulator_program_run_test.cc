@@ -1,4 +1,4 @@
-// Programs of the simulated SHRC-203 that run (manual 41), 105) to 110)).
+// Running programs of the simulated SHRC-203 (manual 41), 105) to 110)).
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 using Lines = std::vector<std::string_view>;
 
-// In program mode, with these lines as its program 1.
+// Enters program mode and stores the lines as program 1.
 void store(SimulatorBench& bench, const Lines& lines) {
   ASSERT_EQ(bench.ask("P:R"), "OK");
   ASSERT_EQ(bench.ask("P:ON"), "OK");
@@ -43,7 +43,7 @@ TEST(SimulatorProgramRun, MovesWaitsLoopsAndEnds) {
   EXPECT_EQ(bench.wait(980ms), "");
   EXPECT_EQ(bench.device.position(1), -400);
   EXPECT_EQ(bench.device.position(2), 300);
-  EXPECT_EQ(bench.ask("!:"), "R");  // it waits
+  EXPECT_EQ(bench.ask("!:"), "R");  // the program waits
   EXPECT_EQ(bench.ask("?:L"), "1,1,3,0,3,0,0,0,0,0,0,0");
   EXPECT_EQ(bench.ask("P:S"), "NG");
   EXPECT_EQ(bench.wait(1s), "");
@@ -81,7 +81,7 @@ TEST(SimulatorProgramRun, PausesAndGoesOn) {
   EXPECT_EQ(bench.ask("P:U0"), "OK");
   EXPECT_EQ(bench.ask("P:U0"), "NG");
   EXPECT_EQ(bench.ask("P:S"), "NG");
-  EXPECT_EQ(bench.ask("P:O"), "NG");  // it still moves
+  EXPECT_EQ(bench.ask("P:O"), "NG");  // the axis still moves
   EXPECT_EQ(bench.ask("?:L"), "1,2,1,0,0,0,0,0,0,0,0,0");
   EXPECT_EQ(bench.rest(), "");
   EXPECT_EQ(bench.device.position(1), 1000);
@@ -113,7 +113,7 @@ TEST(SimulatorProgramRun, Stops) {
   bench.wait(1s);
   EXPECT_EQ(bench.ask("P:E"), "OK");
   EXPECT_EQ(bench.ask("?:L"), "1,0,1,0,0,0,0,0,0,0,0,0");
-  EXPECT_EQ(bench.ask("P:S"), "NG");  // it slows down
+  EXPECT_EQ(bench.ask("P:S"), "NG");  // the axis slows down
   EXPECT_EQ(bench.rest(), "");
   EXPECT_LT(bench.device.position(1), 60000);
   EXPECT_EQ(bench.device.starts(1), 1);
@@ -136,7 +136,7 @@ TEST(SimulatorProgramRun, TellsOfItsTriggers) {
   SimulatorBench bench;
   start(bench, {"M,1,0,0,1000,0,0,0,1,3,4", "M,1,0,0,-100,0,0,0,1,0,0,1,40", "M,1,0,0,-100,0,0,0,1,0,6",
                 "M,1,0,0,100,0,0,0,1,0,3,1,-40", "M,1,0,0,100,0,0,0,1,0,2,1,50", "M,1,0,0,100,0,0,0,1,0,5"});
-  EXPECT_EQ(bench.wait(200ms), "TRIG");  // at the first one's end, before its wait
+  EXPECT_EQ(bench.wait(200ms), "TRIG");  // at the end of the first line, before its wait
   EXPECT_EQ(bench.ask("!:"), "R");
   EXPECT_EQ(bench.rest(), "TRIG TRIG TRIG TRIG TRIG TRIG COMP");
   EXPECT_EQ(bench.device.trigger_pulses(), 7);
@@ -148,7 +148,7 @@ TEST(SimulatorProgramRun, TellsOfItsTriggers) {
 
 TEST(SimulatorProgramRun, TriggersByTimeWhileItMoves) {
   SimulatorBench bench;
-  start(bench, {"M,1,0,0,18000,0,0,0,1,5,1,1,10"});  // it takes 463 ms
+  start(bench, {"M,1,0,0,18000,0,0,0,1,5,1,1,10"});  // the motion takes 463 ms
   EXPECT_EQ(bench.wait(101ms), "TRIG");
   EXPECT_EQ(bench.rest(), "TRIG TRIG TRIG COMP");
 }
@@ -178,7 +178,7 @@ TEST(SimulatorProgramRun, ReturnsAndSetsTheOrigin) {
   EXPECT_EQ(bench.rest(), "TRIG COMP");
   EXPECT_EQ(bench.device.position(1), 0);
   EXPECT_EQ(bench.device.position(2), 0);
-  EXPECT_EQ(bench.ask("SRQ:2S"), "1000001,R");  // it stands on its origin sensor
+  EXPECT_EQ(bench.ask("SRQ:2S"), "1000001,R");  // axis 2 is on its origin sensor
   EXPECT_EQ(bench.ask("?:O"), "7");
 }
 
@@ -189,7 +189,7 @@ TEST(SimulatorProgramRun, GoesLinesArcsAndRegisteredPositions) {
                 "EH,1,1,0,0,100,0,50,2,0,1,0,4"});
   bench.rest();
   ASSERT_EQ(bench.ask("?:L"), "1,0,5,0,0,0,0,0,0,0,0,0");
-  // 100, 200, then +300, -400, then a quarter turn CW around 0, 1000, then two whole ones.
+  // 100, 200, then +300, -400, then a quarter turn CW around 0, 1000, then two whole turns.
   EXPECT_EQ(bench.device.position(1), 400 - 1000);
   EXPECT_EQ(bench.device.position(2), -200 + 1000);
   EXPECT_EQ(bench.device.position(3), 100);
@@ -225,7 +225,7 @@ TEST(SimulatorProgramRun, StopsAtAnError) {
   EXPECT_EQ(bench.rest(), "");
   EXPECT_EQ(bench.device.position(1), 2'000'000);
   EXPECT_EQ(bench.ask("?:L"), "1,5,1,0,0,0,0,0,0,0,0,0");
-  EXPECT_EQ(bench.ask("P:S"), "OK");  // the limit error stands until BEC:
+  EXPECT_EQ(bench.ask("P:S"), "OK");  // the limit error stays until BEC:
   EXPECT_EQ(bench.rest(), "");
   EXPECT_EQ(bench.ask("?:L"), "1,5,1,0,0,0,0,0,0,0,0,0");
 

@@ -1,4 +1,4 @@
-// The simulated SHRC-203's program mode (manual 102) to 116)), its examples typed by hand.
+// Program mode of the simulated SHRC-203 (manual 102) to 116)); the examples are typed by hand.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"

@@ -1,4 +1,4 @@
-// What the simulated SHRC-203 answers, typed from the manual's formats and examples.
+// Answers of the simulated SHRC-203, typed from the manual's formats and examples.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -195,7 +195,7 @@ TEST(SimulatorQuestions, RefusesImpossibleArcs) {
   EXPECT_EQ(bench.ask("E:0A2+P10+P10"), "NG");
 }
 
-// Manual 40): the answer is the line before, as it was sent.
+// Manual 40): the answer is the previous line, as it was sent.
 TEST(SimulatorQuestions, RepeatsTheLineBefore) {
   SimulatorBench bench;
   EXPECT_EQ(bench.ask("?:CMD"), "NS");

@@ -1,4 +1,4 @@
-// Random lines under random options: whatever comes, every line has one reply and the stage stays where it can be.
+// Random lines under random options: every line has one reply, and the stage stays within its limits.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -59,7 +59,7 @@ Options random_options(Random& random) {
 
 bool is_completion(const std::string& line) { return line == "1" || line == "2" || line == "3"; }
 
-// Lines said since `from` that cannot be completions; where the answer itself may be a bare digit, none is counted.
+// Counts the lines since `from` that cannot be completions; an answer that is a bare digit is not counted.
 int replies_since(const SimulatorBench& bench, std::size_t from) {
   int replies = 0;
   for (std::size_t i = from; i < bench.said().size(); ++i) replies += is_completion(bench.said()[i].line) ? 0 : 1;
@@ -81,7 +81,7 @@ TEST(SimulatorRobustness, EveryLineHasOneReply) {
       const auto before = bench.said().size();
       const std::string line = random_line(random);
       bench.ask(line);
-      // A question of one axis may answer a bare digit.
+      // A question about one axis may be answered with a bare digit.
       const int replies = replies_since(bench, before);
       EXPECT_TRUE(replies == 1 || (replies == 0 && line.starts_with("?:M"))) << line << " gave " << replies;
       expect_sound(bench);
@@ -94,7 +94,7 @@ TEST(SimulatorRobustness, EveryLineHasOneReply) {
   }
 }
 
-// Once nothing is due any more, an axis is BUSY only because it waits for inputs.
+// Once no event is due, an axis is BUSY only if it waits for inputs.
 TEST(SimulatorRobustness, EverythingComesToRest) {
   for (unsigned seed = 1; seed <= 300; ++seed) {
     Random random(seed);
@@ -113,7 +113,7 @@ TEST(SimulatorRobustness, EverythingComesToRest) {
   }
 }
 
-// Only moves, no change of the counter or the division: the counter says where the stage is.
+// The lines only move axes and change neither counter nor divisions, so the counter is the stage's position.
 TEST(SimulatorRobustness, TheStageNeverPassesItsLimits) {
   Random random(7);
   for (int round = 0; round < 50; ++round) {

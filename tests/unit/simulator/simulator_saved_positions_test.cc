@@ -1,4 +1,4 @@
-// The simulated SHRC-203's registered positions: PIT: (manual 127) to 131)) and PAV: (manual 132) to 136)).
+// Registered positions of the simulated SHRC-203: PIT: (manual 127) to 131)) and PAV: (manual 132) to 136)).
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -48,7 +48,7 @@ TEST_P(SimulatorSavedPositions, TellsEachAxisItsEnd) {
   EXPECT_EQ(bench.device.position(1), 10000);
   EXPECT_EQ(bench.device.position(2), 5000);
   EXPECT_EQ(bench.device.position(3), 100);
-  // All there already: reported at once.
+  // All axes are there already, so their completions come at once.
   EXPECT_EQ(bench.ask(with("GRT,5")), "OK 1 2 3");
 }
 

@@ -1,4 +1,4 @@
-// What the simulated SHRC-203's setting commands do outside the double buffer, and what they refuse.
+// Effects of the simulated SHRC-203's setting commands outside the double buffer, and their refusals.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -39,7 +39,7 @@ TEST(SimulatorSettings, PresetsZeroesAndRestoresTheCounter) {
   EXPECT_EQ(bench.ask("PSET:A+P1000+P2000"), "OK");
   EXPECT_EQ(bench.ask("Q:SP"), "P+1000,P+2000,P+0,1,1,1,R,R,R");
   EXPECT_EQ(bench.ask("PSET:1+P1000000000"), "NG");
-  // Manual 64): zeroed at +1000, moved to +500, RC: shows 1500.
+  // Manual 64): zeroed at +1000, then moved to +500; RC: shows 1500.
   EXPECT_EQ(bench.ask("R:1"), "OK");
   bench.ask("A:1+P500");
   bench.ask("G:1");
@@ -183,7 +183,7 @@ TEST(SimulatorSettings, ResetForgetsEverythingButThePlace) {
   bench.ask("M:1+P200000");
   bench.ask("G:1");
   bench.rest();
-  EXPECT_EQ(bench.device.position(1), 100'000);  // the limit sensor is where it was
+  EXPECT_EQ(bench.device.position(1), 100'000);  // the limit sensor has not moved
 }
 
 }  // namespace

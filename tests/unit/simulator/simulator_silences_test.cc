@@ -1,4 +1,4 @@
-// Every reading of the manual's silent places, each shown in what a host sees.
+// Every interpretation of points on which the manual is silent, each shown in what a host sees.
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -295,7 +295,7 @@ TEST(SimulatorSilences, QSSign) {
   EXPECT_EQ(bench.ask("Q:SP"), "P0,P0,P0,1,1,1,R,R,R");
 }
 
-// A unit was seen to answer 2, not 3.
+// A real unit was seen to answer 2, not 3.
 TEST(SimulatorSilences, CommandErrorStatus) {
   for (const auto& [value, status] : Settings{{"normal_stays", "3,R"}, {"normal_clears", "2,R"}}) {
     Bench bench("command_error_status", value);
@@ -336,7 +336,7 @@ TEST(SimulatorSilences, FractionOfPulse) {
   }
 }
 
-// The controller's one prebuffer steps when the whole operation is done.
+// The controller's only prebuffer advances when the whole operation is complete.
 TEST(SimulatorSilences, OnePrebufferForAllStepsAsAWhole) {
   Bench bench("prebuffer_scope", "controller");
   bench.ask("MP:A+P1000+P2000");

@@ -1,4 +1,4 @@
-// The simulated SHRC-203's trigger output: T:T, T:P, T:S, T:M, T:E (manual 97) to 101)) and ?:T (manual 42)).
+// Trigger output of the simulated SHRC-203: T:T, T:P, T:S, T:M, T:E (manual 97) to 101)) and ?:T (manual 42)).
 #include <gtest/gtest.h>
 
 #include "tests/unit/simulator/simulator_bench.h"
@@ -101,9 +101,9 @@ TEST(SimulatorTriggers, DrivePulsesCountInBothDirections) {
   EXPECT_EQ(bench.device.trigger_pulses(), 20);
   move(bench, "M:1+P100");
   EXPECT_EQ(bench.device.trigger_pulses(), 20);
-  move(bench, "M:2-P2");  // 105 in all
+  move(bench, "M:2-P2");  // 105 in total
   EXPECT_EQ(bench.device.trigger_pulses(), 21);
-  bench.ask("PSET:2+P0");  // the counter does not matter
+  bench.ask("PSET:2+P0");  // the counter's value does not matter
   move(bench, "A:2-P5");
   EXPECT_EQ(bench.device.trigger_pulses(), 22);
 }
@@ -146,7 +146,7 @@ TEST(SimulatorTriggers, ScalePulsesCountInOneDirectionAndNoPlaceTwice) {
 TEST(SimulatorTriggers, CountsTheWayOfAnArcThereAndBack) {
   SimulatorBench bench;
   bench.ask("T:P1P1000");
-  move(bench, "E:0A0+P0+P5000");  // X goes to one side, through to the other, and back: 4 radii
+  move(bench, "E:0A0+P0+P5000");  // X goes to one side, then to the other, and back: 4 radii
   EXPECT_EQ(bench.device.trigger_pulses(), 20);
   bench.ask("T:E2P+1000");
   move(bench, "E:0A0+P0+P5000");  // Y goes 2 radii up, and back
