@@ -38,8 +38,8 @@ Result<Caller> Access::by_token(std::string_view token, Calendar now) const {
   return Caller{token_caller(known->name), known->role};
 }
 
-bool Access::only_for_admins(KeptRequest request) const {
-  if (request == KeptRequest::none) return false;
+bool Access::only_for_admins(AdminKey request) const {
+  if (request == AdminKey::none) return false;
   return std::ranges::find(config_.admin_commands, request, &AdminCommand::request) != config_.admin_commands.end();
 }
 

@@ -14,11 +14,11 @@
 namespace axisgate::server {
 
 // Requests of operators that the configuration can keep for administrators.
-enum class KeptRequest { none, clear_errors, reset_device, take_over };
+enum class AdminKey { none, clear_errors, reset_device, take_over };
 
 struct AdminCommand {
   std::string name;  // beginning of the command lines that are kept: "BEC:"
-  KeptRequest request = KeptRequest::none;
+  AdminKey request = AdminKey::none;
 };
 
 struct AccessConfig {
@@ -44,7 +44,7 @@ class Access {
   // Returns the caller with that token. Fails with unauthenticated.
   Result<Caller> by_token(std::string_view token, Calendar now) const;
 
-  bool only_for_admins(KeptRequest request) const;
+  bool only_for_admins(AdminKey request) const;
   // `line` is a command line as the caller wrote it.
   bool only_for_admins(std::string_view line) const;
 

@@ -10,16 +10,16 @@
 namespace axisgate::server {
 namespace {
 
-KeptRequest sent_by(stage::AdminCommand::Request request) {
+AdminKey sent_by(stage::AdminCommand::Request request) {
   switch (request) {
     case stage::AdminCommand::Request::none:
       break;
     case stage::AdminCommand::Request::clear_errors:
-      return KeptRequest::clear_errors;
+      return AdminKey::clear_errors;
     case stage::AdminCommand::Request::reset:
-      return KeptRequest::reset_device;
+      return AdminKey::reset_device;
   }
-  return KeptRequest::none;
+  return AdminKey::none;
 }
 
 std::vector<AdminCommand> chosen(ConfigTable& table, const std::vector<std::string>& names,
@@ -47,7 +47,7 @@ std::vector<AdminCommand> admin_commands(DeviceKinds kinds) {
       all.push_back({std::string(command.name), sent_by(command.request)});
     }
   }
-  all.push_back({"take-over", KeptRequest::take_over});
+  all.push_back({"take-over", AdminKey::take_over});
   return all;
 }
 

@@ -14,7 +14,8 @@ namespace asio = boost::asio;
 // Time that a client has to take the last bytes before its connection is closed.
 constexpr Duration kFarewell = std::chrono::seconds(1);
 
-// Bytes that are judged in one go. They contain a few dozen calls, which delay a stop of others by about a millisecond.
+// Bytes that are decided in one go. They contain a few dozen calls, which delay a stop of others by about a
+// millisecond.
 constexpr std::size_t kPortion = 1024;
 
 // A waiting connection keeps no buffer, because there may be thousands of them.
@@ -97,8 +98,8 @@ void Connection::read_client() {
   });
 }
 
-// Bytes that come at once are judged in portions, so that other connections get their turn in between. All bytes that
-// were read are judged, whatever the budget: a client whose debt becomes long this way must be closed.
+// Bytes that come at once are decided in portions, so that other connections get their turn in between. All bytes that
+// were read are decided, whatever the budget: a client whose debt becomes long this way must be closed.
 void Connection::feed_later() {
   reads_client_ = true;
   asio::post(around_.strand, [this, self = shared_from_this()] {

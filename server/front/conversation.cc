@@ -71,7 +71,7 @@ Conversation::Conversation(const Shared& shared, Peer peer, bool stops_only, Own
       stops_only_(stops_only),
       now_(now),
       client_(Http2Session::Role::server, terms_of(shared.limits), *this),
-      own_calls_(shared.desk, peer_, shared.held, client_, std::move(on_answer)),
+      own_calls_(shared.filter, peer_, shared.held, client_, std::move(on_answer)),
       unshown_(-kPrefaceBytes) {}
 
 void Conversation::from_client(std::string_view bytes, TimePoint now) {
@@ -214,36 +214,36 @@ bool Conversation::begin_call(HeaderBlock block) {
     free_ += kStreamWindow;
     return spend(Cost::refusal, 1);
   }
-  const Verdict verdict = shared_.desk.judge(block.headers, peer_, stops_only_);
-  if (verdict.unwanted && !spend(Cost::refusal, 1)) return false;
-  if (!verdict.unwanted) spending_.admit(verdict.caller, now_);
-  if (verdict.what == Verdict::What::refuse) {
-    refuse(block.stream, verdict.refusal);
+  const Decision decision = shared_.filter.decide(block.headers, peer_, stops_only_);
+  if (decision.denied && !spend(Cost::refusal, 1)) return false;
+  if (!decision.denied) spending_.admit(decision.caller, now_);
+  if (decision.what == Decision::What::refuse) {
+    refuse(block.stream, decision.refusal);
   } else {
-    let_in(std::move(block), verdict);
+    let_in(std::move(block), decision);
   }
   return true;
 }
 
-void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
+void Conversation::let_in(HeaderBlock block, const Decision& decision) {
   const auto uncounted = std::ranges::count_if(calls_, [](const auto& call) { return call.second.uncounted; });
-  if (verdict.uncounted && static_cast<std::size_t>(uncounted) >= shared_.limits.answers) {
+  if (decision.uncounted && static_cast<std::size_t>(uncounted) >= shared_.limits.answers) {
     return refuse(block.stream, too_many_open());
   }
   const StreamId stream = block.stream;
   Call& call = calls_[stream];
-  call.place = verdict.place;
-  call.uncounted = verdict.uncounted;
+  call.place = decision.place;
+  call.uncounted = decision.uncounted;
   call.request = std::make_unique<RequestBody>(
       find(block.headers, "grpc-encoding").value_or(""),
-      verdict.uncounted ? shared_.limits.stop_bytes : shared_.limits.message_bytes, shared_.held);
+      decision.uncounted ? shared_.limits.stop_bytes : shared_.limits.message_bytes, shared_.held);
   call.pace.begin(now_);
   const bool whole = block.last;
-  if (verdict.what == Verdict::What::answer) {
+  if (decision.what == Decision::What::answer) {
     own_calls_.begin(stream, std::move(block.headers));
   } else {
     call.forwarded = true;
-    forward(std::move(block), verdict.path);
+    forward(std::move(block), decision.path);
   }
   if (whole) request_is_whole(stream);
 }
@@ -339,7 +339,7 @@ void Conversation::grpc_failed() {
     if (grpc_->has(stream)) calls.push_back(stream);
   }
   grpc_.reset();
-  for (const StreamId stream : calls) refuse(stream, shared_.desk.no_room());
+  for (const StreamId stream : calls) refuse(stream, shared_.filter.no_room());
 }
 
 void Conversation::announce_end() {
@@ -377,7 +377,7 @@ void Conversation::check_requests(TimePoint now, bool reads) {
   for (const StreamId stream : stalled) {
     refuse(stream,
            {.code = kDeadlineExceeded,
-            .message = fmt::format("the request was begun, and did not go on: at least {} bytes are expected "
+            .message = fmt::format("the request began, but did not continue: at least {} bytes are expected "
                                    "in each {} s",
                                    limits.pace.bytes,
                                    std::chrono::duration_cast<std::chrono::seconds>(limits.pace.span).count())});

@@ -12,8 +12,8 @@
 
 #include "device/core/time.h"
 #include "server/front/budget.h"
+#include "server/front/call_filter.h"
 #include "server/front/closing.h"
-#include "server/front/desk.h"
 #include "server/front/grpc_side.h"
 #include "server/front/headers.h"
 #include "server/front/http2_session.h"
@@ -29,7 +29,7 @@ class Conversation final : private Http2Session::Events {
  public:
   // Objects shared by all conversations, which they must outlive.
   struct Shared {
-    Desk& desk;
+    CallFilter& filter;
     const FrontLimits& limits;
     Sources& sources;
     HeldBytes& held;
@@ -104,7 +104,7 @@ class Conversation final : private Http2Session::Events {
   bool end(Cause cause, std::uint32_t error, const char* why);
 
   bool begin_call(HeaderBlock block);
-  void let_in(HeaderBlock block, const Verdict& verdict);
+  void let_in(HeaderBlock block, const Decision& decision);
   void forward(HeaderBlock block, const std::string& path);
   std::optional<Reply> take(StreamId stream, Call& call, std::string_view bytes);
   void request_is_whole(StreamId stream);

@@ -41,7 +41,7 @@ Socket socket_of(const Strand& strand, Descriptor connection) {
 
 }  // namespace
 
-Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
+Front::Front(Strand strand, CallFilter& filter, const std::optional<server::NetworkConfig>& network,
              std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits)
     : limits_(limits),
       sources_(limits.source),
@@ -49,7 +49,7 @@ Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfi
       on_closing_(std::move(on_closing)),
       around_{strand,
               std::make_shared<Inbox>(strand),
-              {desk, limits_, sources_, held_},
+              {filter, limits_, sources_, held_},
               std::move(to_grpc),
               [this](const Connection& connection, const std::optional<Closing>& why) { ended(connection, why); }},
       timer_(strand) {

@@ -13,9 +13,9 @@
 #include "server/config/config.h"
 #include "server/connections/acceptor.h"
 #include "server/front/budget.h"
+#include "server/front/call_filter.h"
 #include "server/front/closing.h"
 #include "server/front/connection.h"
-#include "server/front/desk.h"
 #include "server/front/holding.h"
 #include "server/front/limits.h"
 #include "server/front/tls.h"
@@ -28,8 +28,8 @@ class Front {
   // Called on the strand when this side has closed a connection for a cause.
   using OnClosing = std::function<void(const Peer&, const Closing&)>;
 
-  // `desk` must outlive this object. `to_grpc` receives a connected socket for each client that has a call for gRPC.
-  Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
+  // `filter` must outlive this object. `to_grpc` receives a connected socket for each client that has a call for gRPC.
+  Front(Strand strand, CallFilter& filter, const std::optional<server::NetworkConfig>& network,
         std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits = {});
 
   ~Front() { around_.inbox->close(); }

@@ -28,7 +28,7 @@ struct FrontLimits {
   };
   // Rates that a connection keeps even when other connections of its source have used up the source's rates: enough for
   // a stop.
-  Rates spared{{{20, 40}, {16 << 10, 64 << 10}, {2, 10}, {20, 100}, {1, 10}, {1, 5}, {64 << 10, 256 << 10}}};
+  Rates guaranteed{{{20, 40}, {16 << 10, 64 << 10}, {2, 10}, {20, 100}, {1, 10}, {1, 5}, {64 << 10, 256 << 10}}};
   // Rates until a call is let in. A client sends one SETTINGS and a few WINDOW_UPDATEs before that.
   Rates stranger{{{50, 200}, {64 << 10, 64 << 10}, {10, 20}, {200, 400}, {5, 10}, {50, 200}, {64 << 10, 256 << 10}}};
 

@@ -25,8 +25,8 @@ std::optional<Reply> OwnCalls::take(StreamId stream, std::string_view bytes) {
 
 void OwnCalls::ask(StreamId stream) {
   Call& call = calls_.at(stream);
-  call.answer = desk_.answer(call.headers, peer_, only_message(call.request),
-                             [on_answer = on_answer_, stream] { on_answer(stream); });
+  call.answer = filter_.answer(call.headers, peer_, only_message(call.request),
+                               [on_answer = on_answer_, stream] { on_answer(stream); });
   call.holding.give_back();
   call.request = {};
 }

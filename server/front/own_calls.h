@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/front/headers.h"
 #include "server/front/holding.h"
 #include "server/front/http2_session.h"
@@ -22,20 +22,20 @@ class OwnCalls {
   using OnAnswer = std::function<void(StreamId stream)>;
 
   // The referenced objects must outlive this one.
-  OwnCalls(Desk& desk, const Peer& peer, HeldBytes& held, Http2Session& client, OnAnswer on_answer)
-      : desk_(desk), peer_(peer), held_(held), client_(client), on_answer_(std::move(on_answer)) {}
+  OwnCalls(CallFilter& filter, const Peer& peer, HeldBytes& held, Http2Session& client, OnAnswer on_answer)
+      : filter_(filter), peer_(peer), held_(held), client_(client), on_answer_(std::move(on_answer)) {}
 
   bool has(StreamId stream) const { return calls_.contains(stream); }
 
   void begin(StreamId stream, Headers headers);
   // Takes a piece of the request. Returns a refusal if it cannot be taken.
   std::optional<Reply> take(StreamId stream, std::string_view bytes);
-  // Called when the request is complete; asks the desk.
+  // Called when the request is complete; asks the filter.
   void ask(StreamId stream);
   // Removes a call that its caller has left or that has been answered.
   void forget(StreamId stream) { calls_.erase(stream); }
 
-  // Sends the desk's replies. Does nothing if the call has gone.
+  // Sends the filter's replies. Does nothing if the call has gone.
   void pull(StreamId stream);
 
  private:
@@ -47,7 +47,7 @@ class OwnCalls {
     bool begun = false;  // the head of the answer has been sent
   };
 
-  Desk& desk_;
+  CallFilter& filter_;
   const Peer& peer_;
   HeldBytes& held_;
   Http2Session& client_;

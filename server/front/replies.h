@@ -1,7 +1,7 @@
 // Headers and trailers of calls that the front answers itself, in gRPC's protocol over HTTP/2.
 #pragma once
 
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/front/headers.h"
 
 namespace axisgate::front {

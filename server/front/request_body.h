@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/front/holding.h"
 
 namespace axisgate::front {

@@ -16,7 +16,7 @@ Spending::Spending(const FrontLimits& limits, Sources& sources, const std::strin
     : sources_(sources),
       source_(sources.of(source, now)),
       own_(limits.connection, now),
-      spared_(limits.spared, now),
+      guaranteed_(limits.guaranteed, now),
       stranger_(limits.stranger, now) {}
 
 void Spending::admit(const std::string& caller, TimePoint now) {
@@ -36,7 +36,7 @@ bool Spending::spend(Cost cost, double tokens, TimePoint now) {
   Duration debt = own_.take(cost, tokens, now);
   if (!admitted_) debt = std::max(debt, stranger_.take(cost, tokens, now));
   const Duration of_others = debt_of_others(cost, tokens, now);
-  if (of_others > debt && !spared_.take_if_there(cost, tokens, now)) debt = of_others;
+  if (of_others > debt && !guaranteed_.take_if_there(cost, tokens, now)) debt = of_others;
   if (debt <= Duration::zero()) return true;
   const bool may_wait = cost == Cost::stream || cost == Cost::header_bytes || cost == Cost::unpacked ||
                         (cost == Cost::refusal && debt < kRefusalsWait);

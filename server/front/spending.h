@@ -18,7 +18,7 @@ class Spending {
 
   // Returns false if the connection must end. Costs that may wait delay the reading instead: not_before().
   bool spend(Cost cost, double tokens, TimePoint now);
-  // Called when a call was let in; `caller` is Verdict::caller.
+  // Called when a call was let in; `caller` is Decision::caller.
   void admit(const std::string& caller, TimePoint now);
 
   bool admitted() const { return admitted_; }
@@ -32,7 +32,7 @@ class Spending {
   const std::shared_ptr<Source> source_;
   std::string caller_;                        // the last admitted caller with a name
   std::shared_ptr<Source> caller_elsewhere_;  // budget over all connections of this caller; null without a name
-  Budget own_, spared_;
+  Budget own_, guaranteed_;
   Budget stranger_;  // until a call is let in
   bool admitted_ = false;
   TimePoint not_before_{};

@@ -22,7 +22,7 @@
 #include "server/rpc/calls/half_close.h"
 #include "server/rpc/calls/queue_waker.h"
 #include "server/rpc/calls/unreadable.h"
-#include "server/rpc/gate/desk.h"
+#include "server/rpc/gate/call_filter.h"
 #include "server/rpc/gate/refusals.h"
 #include "server/rpc/gate/rpc_metrics.h"
 #include "server/rpc/services/access_service.h"
@@ -72,7 +72,7 @@ class Server::Services {
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;
   Refusals refusals_;
-  Desk desk_;
+  CallFilter filter_;
   DeviceService devices_;
   StageService stage_;
   EventService events_;
@@ -104,7 +104,7 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       refusals_(
           *gateway.metrics().registry(),
           [&gateway](Duration wait, std::function<void()> task) { gateway.timeouts().after(wait, std::move(task)); }),
-      desk_(api_, rpc_metrics_, refusals_),
+      filter_(api_, rpc_metrics_, refusals_),
       devices_(api_.devices),
       stage_(api_.motions, api_.paths, api_.jogs, half_close_),
       events_(api_.events),
@@ -119,7 +119,7 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       known_callers_(api_.tokens),
       health_(api_.streams),
       front_(
-          listener_->strand(), desk_, gateway.config().network,
+          listener_->strand(), filter_, gateway.config().network,
           [this](Descriptor connection) { enter(std::move(connection)); },
           [this](const front::Peer& peer, const front::Closing& closing) { refusals_.note(peer, closing); },
           {.message_bytes = static_cast<std::size_t>(message_bytes_max_)}) {}

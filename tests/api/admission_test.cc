@@ -15,7 +15,7 @@ class AdmissionTest : public ::testing::Test {
   Result<stage::RequestContext> context(RequestKind kind) const {
     return world_.api->admission.context_of(kind, call_, {kAnna, server::Role::operator_});
   }
-  Duration patience(RequestKind kind) const { return context(kind)->not_after - monotonic_now(); }
+  Duration validity(RequestKind kind) const { return context(kind)->not_after - monotonic_now(); }
   static void expect_about(Duration found, Duration expected) {
     EXPECT_LE(found, expected + std::chrono::milliseconds(100));
     EXPECT_GT(found, expected - seconds(1));
@@ -26,33 +26,33 @@ class AdmissionTest : public ::testing::Test {
 };
 
 TEST_F(AdmissionTest, AMotionCountsFor5SecondsAndAnythingElseFor20) {
-  expect_about(patience(RequestKind::move), seconds(5));
-  expect_about(patience(RequestKind::change_settings), seconds(20));
-  expect_about(patience(RequestKind::get_device), seconds(20));
-  expect_about(patience(RequestKind::cancel_motion), seconds(20));
+  expect_about(validity(RequestKind::move), seconds(5));
+  expect_about(validity(RequestKind::change_settings), seconds(20));
+  expect_about(validity(RequestKind::get_device), seconds(20));
+  expect_about(validity(RequestKind::cancel_motion), seconds(20));
 }
 
 TEST_F(AdmissionTest, NotAfterSaysOtherwiseWhereSomethingIsChanged) {
   call_.not_after = monotonic_now() + seconds(60);
-  expect_about(patience(RequestKind::move), seconds(60));
-  expect_about(patience(RequestKind::change_settings), seconds(60));
-  expect_about(patience(RequestKind::get_device), seconds(20));
-  expect_about(patience(RequestKind::cancel_motion), seconds(20));
+  expect_about(validity(RequestKind::move), seconds(60));
+  expect_about(validity(RequestKind::change_settings), seconds(60));
+  expect_about(validity(RequestKind::get_device), seconds(20));
+  expect_about(validity(RequestKind::cancel_motion), seconds(20));
 }
 
 TEST_F(AdmissionTest, TheCallsDeadlineEndsItEarlier) {
   call_.deadline = monotonic_now() + seconds(3);
   call_.not_after = monotonic_now() + seconds(60);
   for (const RequestKind kind : {RequestKind::move, RequestKind::change_settings, RequestKind::get_device}) {
-    expect_about(patience(kind), seconds(3));
+    expect_about(validity(kind), seconds(3));
   }
 }
 
 TEST_F(AdmissionTest, TheCallsDeadlineIsTheLimitOfAChangeButNotOfAMotion) {
   call_.deadline = monotonic_now() + seconds(100);
-  expect_about(patience(RequestKind::move), seconds(5));
-  expect_about(patience(RequestKind::change_settings), seconds(100));
-  expect_about(patience(RequestKind::get_device), seconds(100));
+  expect_about(validity(RequestKind::move), seconds(5));
+  expect_about(validity(RequestKind::change_settings), seconds(100));
+  expect_about(validity(RequestKind::get_device), seconds(100));
 }
 
 TEST_F(AdmissionTest, LeaseAndEpochsReachWhatUsesAxes) {

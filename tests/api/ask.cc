@@ -136,7 +136,7 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
     case RequestKind::get_mill:
       return answer_of<MillState>(with(mill.mills, &Mills::get), call, kDevice);
     case RequestKind::confirm_job:
-      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::confirm), call, kJob, rml1::JobSetup());
+      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::confirm), call, kJob, jobs::JobSetup());
     case RequestKind::start_job:
       return answer_of<CurrentJob>(with(mill.starts, &JobStarts::start), call, kJob);
     case RequestKind::pause_job:
@@ -158,7 +158,7 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
       return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::done), call, kJob);
     case RequestKind::operate_mill:
       return answer_of<Duration>(with(mill.operation, &MillOperation::operate), call, kDevice,
-                                 HandRequest{rml1::RaiseTool()});
+                                 HandRequest{jobs::RaiseTool()});
     default:
       return reason_of(mill.mills.watch(call, kDevice));
   }
@@ -387,8 +387,8 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::watch_motion:
     case Kind::cancel_motion:
       return ask_motion(world, kind, call);
-    case Kind::ask_door:
-    case Kind::watch_door:
+    case Kind::ask_server:
+    case Kind::watch_server:
     case Kind::unlisted:
       return Reason::internal;
     default:

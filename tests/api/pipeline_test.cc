@@ -96,7 +96,7 @@ TEST(PipelineTest, WhileTheDeviceIsNotUpNothingThatMovesIsPlanned) {
   std::vector<RequestKind> moving;
   for (std::size_t number = 0; number < kRequestKinds; ++number) {
     const auto kind = static_cast<RequestKind>(number);
-    if (rule_of(kind).patience == Patience::motion) moving.push_back(kind);
+    if (rule_of(kind).deadline == DeadlineRule::motion) moving.push_back(kind);
   }
   ASSERT_EQ(moving.size(), 7U);
   Asking<std::string> silent;  // prevents that the device comes up again

@@ -21,7 +21,7 @@ TEST(MethodKinds, EveryServedMethodHasItsOwn) {
     const api::RequestKind kind = kind_of("/" + method.name);
     EXPECT_NE(kind, api::RequestKind::unlisted) << method.name;
     const api::Quota quota = api::rule_of(kind).quota;
-    const bool counted = quota == api::Quota::stream || quota == api::Quota::outcome || quota == api::Quota::path;
+    const bool counted = quota == api::Quota::stream || quota == api::Quota::motion_stream || quota == api::Quota::path;
     EXPECT_EQ(counted, method.streams) << method.name;
     const bool of_axisgate = method.name.starts_with("axisgate.v1.");
     EXPECT_TRUE(kinds.insert(kind).second || !of_axisgate) << method.name;

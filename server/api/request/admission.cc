@@ -20,8 +20,8 @@ using server::Role;
 using stage::RequestContext;
 
 constexpr std::size_t kRequestIdMax = 128;
-constexpr Duration kMotionPatience = std::chrono::seconds(5);
-constexpr Duration kPatience = std::chrono::seconds(20);
+constexpr Duration kMotionValid = std::chrono::seconds(5);
+constexpr Duration kRequestValid = std::chrono::seconds(20);
 
 std::optional<IdentityLimits::Kind> counted_as(RequestKind kind) {
   switch (rule_of(kind).quota) {
@@ -30,22 +30,22 @@ std::optional<IdentityLimits::Kind> counted_as(RequestKind kind) {
     case Quota::request:
       return IdentityLimits::Kind::call;
     case Quota::stream:
-    case Quota::outcome:
+    case Quota::motion_stream:
     case Quota::path:
       break;
   }
   return IdentityLimits::Kind::stream;
 }
 
-TimePoint without_not_after(Patience patience, const Call& call) {
-  if (patience == Patience::motion) return monotonic_now() + kMotionPatience;
-  return call.deadline.value_or(monotonic_now() + kPatience);
+TimePoint without_not_after(DeadlineRule rule, const Call& call) {
+  if (rule == DeadlineRule::motion) return monotonic_now() + kMotionValid;
+  return call.deadline.value_or(monotonic_now() + kRequestValid);
 }
 
 // Returns the time until which the request counts: the call's deadline at the latest.
-TimePoint until(Patience patience, const Call& call) {
-  const bool says_until = patience == Patience::change || patience == Patience::motion;
-  const TimePoint end = says_until && call.not_after ? *call.not_after : without_not_after(patience, call);
+TimePoint until(DeadlineRule rule, const Call& call) {
+  const bool says_until = rule == DeadlineRule::change || rule == DeadlineRule::motion;
+  const TimePoint end = says_until && call.not_after ? *call.not_after : without_not_after(rule, call);
   return std::min(end, call.deadline.value_or(TimePoint::max()));
 }
 
@@ -63,7 +63,7 @@ Result<void> Admission::check_least_role(RequestKind kind, const Caller& caller,
                 "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
   }
   const Rule& rule = rule_of(kind);
-  const Role least = access_.only_for_admins(rule.kept) ? Role::admin : rule.least_role;
+  const Role least = access_.only_for_admins(rule.admin_key) ? Role::admin : rule.least_role;
   if (caller.role >= least) return {};
   return fail(Reason::not_allowed,
               fmt::format("{} asks for the role {}, and {} is {}", escaped(as_called), name(least), caller.who,
@@ -102,9 +102,9 @@ Result<void> Admission::check_request_id(const Call& call) {
 
 Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call, const Caller& caller) const {
   const Rule& rule = rule_of(kind);
-  if (rule.patience == Patience::stop) return context_of_stop(call);
+  if (rule.deadline == DeadlineRule::stop) return context_of_stop(call);
   RequestContext context{.who = caller.who,
-                         .not_after = until(rule.patience, call),
+                         .not_after = until(rule.deadline, call),
                          .role = std::string(name(caller.role)),
                          .identity = server::identity_of(caller.who),
                          .session = call.credential.session};
@@ -114,7 +114,7 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
     if (!lease && kind != RequestKind::execute) return tl::unexpected(lease.error());
     context.lease = lease.value_or(server::LeaseTokens::kUnknown);
   }
-  if (rule.patience == Patience::question) return context;
+  if (rule.deadline == DeadlineRule::question) return context;
   if (const auto good = check_request_id(call); !good) return tl::unexpected(good.error());
   context.request_id = call.request_id;
   if (rule.use == Use::nothing || rule.use == Use::lease) return context;
@@ -126,7 +126,7 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
 RequestContext Admission::context_of_stop(const Call& call) const {
   return {.who = name_of(call.credential),
           .request_id = escaped(call.request_id, kRequestIdMax),
-          .not_after = until(Patience::stop, call),
+          .not_after = until(DeadlineRule::stop, call),
           .lease = lease_tokens_.open(call.lease_token).value_or(0),
           .answer_by = call.deadline,
           .session = call.credential.session};

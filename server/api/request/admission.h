@@ -37,7 +37,7 @@ class Admission {
   // Checks that the request_id has at most 128 characters, all printable ASCII. Fails with invalid_request.
   static Result<void> check_request_id(const Call& call);
 
-  // Builds the context of a request by the patience and the use of its kind. Fails with invalid_request if
+  // Builds the context of a request by the deadline rule and the use of its kind. Fails with invalid_request if
   // check_request_id() fails, and with lease_lost if the lease token is invalid.
   Result<stage::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;
 

@@ -85,7 +85,7 @@ void Mutation::acted(std::optional<std::string> answer) {
 }
 
 void Mutation::failed(const Problem& problem) {
-  if (server::journal::is_refusal(problem.reason) || rule_of(kind_).patience == Patience::motion)
+  if (server::journal::is_refusal(problem.reason) || rule_of(kind_).deadline == DeadlineRule::motion)
     return refused(problem);
   ended(server::journal::answer_of(problem), name(problem.reason));
   if (key_) gateway_.requests().acted(*key_);
@@ -132,7 +132,7 @@ Result<std::shared_ptr<Mutation>> Mutations::begin(RequestKind kind, const Call&
                                               .id = call.request_id,
                                               .digest = std::string(name(kind)) + call.digest,
                                               .device = device.name(),
-                                              .moves = rule_of(kind).patience == Patience::motion},
+                                              .moves = rule_of(kind).deadline == DeadlineRule::motion},
                                              call.request_memory, monotonic_now(), std::move(known));
     if (!new_one) return tl::unexpected(new_one.error());
     if (!*new_one) return nullptr;

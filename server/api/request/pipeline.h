@@ -135,8 +135,8 @@ Result<typename PipelineOf<Device>::Identified> PipelineOf<Device>::identify(con
   Result<server::Caller> caller = admission_.check_role(asked.kind, asked.call.credential);
   if (!caller) return tl::unexpected(caller.error());
   if (!asked.device) return tl::unexpected(asked.device.error());
-  const Patience patience = rule_of(asked.kind).patience;
-  if (patience == Patience::change || patience == Patience::motion) {
+  const DeadlineRule rule = rule_of(asked.kind).deadline;
+  if (rule == DeadlineRule::change || rule == DeadlineRule::motion) {
     if (const auto good = Admission::check_request_id(asked.call); !good) return tl::unexpected(good.error());
   }
   return Identified{*asked.device, *std::move(caller)};
@@ -173,7 +173,7 @@ template <class Device>
 template <class Ready>
 Result<std::string> PipelineOf<Device>::ready_if_up(RequestKind kind, const Turn& turn, Ready& ready) {
   if constexpr (std::is_same_v<Device, server::Stage>) {
-    const bool moves = rule_of(kind).patience == Patience::motion;
+    const bool moves = rule_of(kind).deadline == DeadlineRule::motion;
     if (const auto up = moves ? turn.controller.check_up() : Result<void>(); !up) return tl::unexpected(up.error());
   }
   return ready(turn);

@@ -72,9 +72,9 @@ enum class RequestKind {
   move_job,
   report_job_done,
   operate_mill,
-  ask_door,    // question about the door itself with one answer: its health
-  watch_door,  // the same as a stream
-  unlisted,    // not in this table
+  ask_server,    // question about the server itself with one answer: its health
+  watch_server,  // the same as a stream
+  unlisted,      // not in this table
 };
 inline constexpr std::size_t kRequestKinds = static_cast<std::size_t>(RequestKind::unlisted) + 1;
 
@@ -83,12 +83,12 @@ enum class Quota {
   none,     // neither counted nor refused, as stops require
   request,  // request with one answer
   stream,
-  outcome,  // a stream that follows one motion; some places are reserved for these
-  path,     // a stream that keeps a whole path in memory
+  motion_stream,  // a stream that follows one motion; some places are reserved for these
+  path,           // a stream that keeps a whole path in memory
 };
 
 // Time for which a request counts, and the parts of the call's context that apply to it.
-enum class Patience {
+enum class DeadlineRule {
   stop,      // as question; the lease applies, and no context refuses it
   question,  // until the call's deadline, or for 20 s
   change,    // until not_after; without it until the call's deadline, or for 20 s
@@ -107,10 +107,10 @@ struct Rule {
   RequestKind kind;
   std::string_view name;  // "change settings", for people; never changed, because the journal has it
   server::Role least_role;
-  server::KeptRequest kept;  // key in `admin_commands` of the configuration that restricts the request to
-                             // administrators
+  server::AdminKey admin_key;  // key in `admin_commands` of the configuration that restricts the request to
+                               // administrators
   Quota quota;
-  Patience patience;
+  DeadlineRule deadline;
   Use use;
   bool audited;  // the log says who requested it
 };

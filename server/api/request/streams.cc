@@ -53,7 +53,7 @@ std::optional<Problem> Streams::full(Quota quota, const std::string& who) const 
   if (all.streams >= limits_.streams) {
     return refused(fmt::format("{} streams are open, and no more are served", all.streams));
   }
-  if (quota != Quota::outcome && all.streams - all.outcomes >= limits_.streams - limits_.outcomes_kept) {
+  if (quota != Quota::motion_stream && all.streams - all.outcomes >= limits_.streams - limits_.outcomes_kept) {
     return refused(fmt::format("{} streams are open, and the last {} are for those that follow one motion",
                                all.streams - all.outcomes, limits_.outcomes_kept));
   }
@@ -62,7 +62,7 @@ std::optional<Problem> Streams::full(Quota quota, const std::string& who) const 
 
 void Streams::count(Open& open, Quota quota, const std::string& who, int one) {
   open.all.streams += one;
-  if (quota == Quota::outcome) open.all.outcomes += one;
+  if (quota == Quota::motion_stream) open.all.outcomes += one;
   if (quota != Quota::path) return;
   open.all.paths += one;
   const auto own = open.paths_by_caller.try_emplace(who).first;

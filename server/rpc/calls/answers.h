@@ -11,7 +11,7 @@
 
 #include "server/api/request/call.h"
 #include "server/api/request/subscription.h"
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/rpc/calls/served.h"
 
 namespace axisgate::rpc {

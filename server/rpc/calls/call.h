@@ -7,7 +7,7 @@
 
 #include "axisgate/v1/common.pb.h"
 #include "server/api/request/call.h"
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/proto/digest.h"
 
 namespace axisgate::rpc {

@@ -5,7 +5,7 @@
 
 #include "server/api/request/call.h"
 #include "server/api/request/subscription.h"
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/rpc/gate/refusals.h"
 #include "server/rpc/gate/rpc_metrics.h"
 

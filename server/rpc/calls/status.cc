@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "server/explain.h"
+#include "device/core/explain.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -112,7 +112,7 @@ grpc::StatusCode code_of(Reason reason) {
 
 grpc::Status to_status(const Problem& problem, const proto::Metadata& metadata) {
   const grpc::StatusCode code = code_of(problem.reason);
-  const std::string message = server::explain(problem);
+  const std::string message = explain(problem);
   const v1::Problem detail = proto::to_proto(problem, metadata);
   v1::ErrorStatus status;
   status.set_code(code);

@@ -82,12 +82,12 @@ constexpr std::string_view kReflection = "/grpc.reflection.v1.ServerReflection/"
 
 // gRPC's own services, by the beginning of the method. All of their methods only read.
 constexpr std::array<MethodKind, 6> kOfGrpc = {{
-    {"/grpc.health.v1.Health/Watch", Kind::watch_door},
-    {"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo", Kind::watch_door},
-    {"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", Kind::watch_door},
-    {"/grpc.health.v1.Health/", Kind::ask_door},
-    {kReflection, Kind::ask_door},
-    {kReflectionServed, Kind::ask_door},
+    {"/grpc.health.v1.Health/Watch", Kind::watch_server},
+    {"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo", Kind::watch_server},
+    {"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", Kind::watch_server},
+    {"/grpc.health.v1.Health/", Kind::ask_server},
+    {kReflection, Kind::ask_server},
+    {kReflectionServed, Kind::ask_server},
 }};
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "axisgate/v1/stage.pb.h"
 #include "device/core/time.h"
 #include "server/api/api.h"
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/rpc/calls/answers.h"
 #include "server/rpc/calls/served.h"
 
@@ -39,7 +39,7 @@ class OwnAnswers {
   // Null if gRPC answers this kind.
   static const Row* row_of(api::RequestKind kind);
 
-  // `deadline` is the call's. front::Desk::answer() describes `message`.
+  // `deadline` is the call's. front::CallFilter::answer() describes `message`.
   std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
                                         std::optional<TimePoint> deadline, std::optional<std::string_view> message,
                                         Wake wake) const;

@@ -11,8 +11,8 @@
 #include "device/core/problem.h"
 #include "server/api/request/call.h"
 #include "server/events/refusal_log.h"
+#include "server/front/call_filter.h"
 #include "server/front/closing.h"
-#include "server/front/desk.h"
 #include "server/rpc/gate/refusal_metrics.h"
 
 namespace axisgate::rpc {

@@ -68,7 +68,7 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, con
 grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext* context,
                                                                     const HealthCheckRequest* request) {
   Result<api::Streams::Place> place =
-      streams_.take(api::RequestKind::watch_door, api::name_of(credential_of(*context)));
+      streams_.take(api::RequestKind::watch_server, api::name_of(credential_of(*context)));
   if (!place) return new EndedStream<grpc::ServerWriteReactor<HealthCheckResponse>>(place.error());
   const bool known = is_service(request->service());
   return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,

@@ -1,4 +1,4 @@
-// StageService: motion. The front answers stops (desk.h).
+// StageService: motion. The front answers stops (call_filter.h).
 #pragma once
 
 #include "axisgate/v1/stage.grpc.pb.h"

@@ -1,4 +1,4 @@
-// A conversation with one client, whose desk the test controls. The test plays the client and gRPC, frame by frame.
+// A conversation with one client, whose filter the test controls. The test plays the client and gRPC, frame by frame.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -32,20 +32,20 @@ class TestAnswer final : public Answer {
   const std::shared_ptr<std::vector<Reply>> replies_;
 };
 
-// Decides by method: /forward forwards, /stop answers, /ask answers with a place; anything else is refused, /unwanted
-// as an unwanted call.
-class TestDesk final : public Desk {
+// Decides by method: /forward forwards, /stop answers, /ask answers with a place; anything else is refused, /denied
+// as a denied call.
+class TestCallFilter final : public CallFilter {
  public:
-  Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
+  Decision decide(const Headers& headers, const Peer&, bool stops_only) override {
     const std::string path(find(headers, ":path").value_or(""));
-    judged.push_back(path);
-    if (path == "/stop") return {.what = Verdict::What::answer, .uncounted = true};
-    if (path == "/ask") return {.what = Verdict::What::answer, .place = place};
+    decided.push_back(path);
+    if (path == "/stop") return {.what = Decision::What::answer, .uncounted = true};
+    if (path == "/ask") return {.what = Decision::What::answer, .place = place};
     if (path == "/forward" && !stops_only) {
-      return {.what = Verdict::What::forward, .place = place, .path = "/forwarded", .caller = caller};
+      return {.what = Decision::What::forward, .place = place, .path = "/forwarded", .caller = caller};
     }
     return {
-        .what = Verdict::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .unwanted = path == "/unwanted"};
+        .what = Decision::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .denied = path == "/denied"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
   std::unique_ptr<Answer> answer(const Headers&, const Peer&, std::optional<std::string_view> message,
@@ -60,7 +60,7 @@ class TestDesk final : public Desk {
 
   std::shared_ptr<int> place = std::make_shared<int>();
   std::string caller;
-  std::vector<std::string> judged;
+  std::vector<std::string> decided;
   // Requests with their message; nullopt if the request was not exactly one message.
   std::vector<std::pair<std::optional<std::string>, std::function<void(Reply)>>> asked;
 };
@@ -148,10 +148,10 @@ class ConversationTest : public testing::Test {
   }
 
   TimePoint now{std::chrono::seconds(1)};
-  TestDesk desk;
+  TestCallFilter filter;
   Sources sources{kLimits.source};
   HeldBytes held{kLimits.held_bytes};
-  Conversation::Shared shared{desk, kLimits, sources, held};
+  Conversation::Shared shared{filter, kLimits, sources, held};
   std::shared_ptr<Source> source = sources.of("uid 1", now);
   std::optional<Conversation> conversation;
   HeaderEncoder encoder, grpc_encoder;

@@ -22,7 +22,7 @@ class ClosingTest : public ::testing::Test {
  protected:
   void connect(const FrontLimits& limits) {
     front_.emplace(
-        Strand(io_.get_executor()), desk_, std::nullopt, [](Descriptor) {},
+        Strand(io_.get_executor()), filter_, std::nullopt, [](Descriptor) {},
         [this](const Peer& peer, const Closing& closing) {
           EXPECT_EQ(peer.source, "uid " + std::to_string(::geteuid()));
           causes_.push_back(closing.cause);
@@ -52,7 +52,7 @@ class ClosingTest : public ::testing::Test {
   }
 
   boost::asio::io_context io_;
-  TestDesk desk_;
+  TestCallFilter filter_;
   std::vector<Cause> causes_;
   std::optional<Front> front_;
   Descriptor client_;

@@ -102,10 +102,10 @@ TEST_F(ConversationTest, ARefusalIsGrpcsAnswerAndEndsTheStream) {
 TEST_F(ConversationTest, AStopIsAnsweredWithoutGrpc) {
   open(true);
   say(call(1, "/stop") + message(1, "halt"));
-  ASSERT_THAT(desk.asked, SizeIs(1));
-  EXPECT_EQ(desk.asked[0].first, "halt");
+  ASSERT_THAT(filter.asked, SizeIs(1));
+  EXPECT_EQ(filter.asked[0].first, "halt");
   EXPECT_THAT(heard(), IsEmpty());
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   const std::vector<Seen> seen = heard();
   ASSERT_THAT(seen, SizeIs(3));
   headers_of(seen[0]);
@@ -118,10 +118,10 @@ TEST_F(ConversationTest, AStopIsAnsweredWithoutGrpc) {
 TEST_F(ConversationTest, AStopInPiecesIsOneAndItsPaddingIsNone) {
   open();
   say(call(1, "/stop") + frame(FrameType::data, 0, 1, "\0\0\0"s));
-  EXPECT_THAT(desk.asked, IsEmpty());
+  EXPECT_THAT(filter.asked, IsEmpty());
   say(frame(FrameType::data, 0x8 | kEndStream, 1, "\2\0\2ab\0\0"s));
-  ASSERT_THAT(desk.asked, SizeIs(1));
-  EXPECT_EQ(desk.asked[0].first, "ab");
+  ASSERT_THAT(filter.asked, SizeIs(1));
+  EXPECT_EQ(filter.asked[0].first, "ab");
 }
 
 // RFC 9113, 8.1: trailers may end a request; gRPC clients send none, but proxies may.
@@ -132,8 +132,8 @@ TEST_F(ConversationTest, TrailersEndARequest) {
   };
   say(call(1, "/stop") + message(1, "halt", false));
   say(trailers_of_request(1));
-  ASSERT_THAT(desk.asked, SizeIs(1));
-  EXPECT_EQ(desk.asked[0].first, "halt");
+  ASSERT_THAT(filter.asked, SizeIs(1));
+  EXPECT_EQ(filter.asked[0].first, "halt");
   say(call(3, "/forward") + message(3, "ab", false));
   say(trailers_of_request(3));
   EXPECT_TRUE(only(FrameType::data, passed_on()).back().ends_stream());
@@ -143,15 +143,15 @@ TEST_F(ConversationTest, AStopThatItsCallerLeftIsNotAnswered) {
   open();
   say(call(1, "/stop") + message(1, "halt") + rst_stream(1, ErrorCode::no_error));
   heard();
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   EXPECT_THAT(heard(), IsEmpty());
 }
 
 TEST_F(ConversationTest, ManyCallsAtOnceAreAllAnswered) {
   open();
   for (std::uint32_t stream = 1; stream < 1001; stream += 2) say(call(stream, "/ask") + message(stream, "x"));
-  ASSERT_THAT(desk.asked, SizeIs(500));
-  for (const auto& one : desk.asked) one.second({.body = "y"});
+  ASSERT_THAT(filter.asked, SizeIs(500));
+  for (const auto& one : filter.asked) one.second({.body = "y"});
   EXPECT_THAT(only(FrameType::data, heard()), SizeIs(500));
   EXPECT_EQ(fault(), "");
 }
@@ -165,7 +165,7 @@ TEST_F(ConversationTest, BeyondItsBoundAStopIsRefusedByItself) {
   const Headers headers = headers_of(heard().at(0));
   EXPECT_EQ(find(headers, "grpc-status"), "8");
   EXPECT_EQ(find(headers, "grpc-retry-pushback-ms"), "1000");
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   EXPECT_THAT(heard(), SizeIs(3));
 }
 
@@ -181,7 +181,7 @@ TEST_F(ConversationTest, WhatIsNoCallMaySendItsBody) {
 
 TEST_F(ConversationTest, ACallHoldsItsPlaceUntilItEnds) {
   open();
-  const auto held_places = [&] { return desk.place.use_count() - 1; };
+  const auto held_places = [&] { return filter.place.use_count() - 1; };
   for (const std::uint32_t stream : {1, 3, 5}) say(call(stream, "/forward"));
   passed_on();
   EXPECT_EQ(held_places(), 3);
@@ -201,11 +201,11 @@ TEST_F(ConversationTest, WithoutAWayToGrpcOnlyStopsAreServed) {
   conversation->grpc_failed();
   EXPECT_FALSE(conversation->has_for_grpc());
   EXPECT_EQ(find(headers_of(heard()[0]), "grpc-message"), "no room");
-  EXPECT_EQ(desk.place.use_count(), 1);
+  EXPECT_EQ(filter.place.use_count(), 1);
   say(call(3, "/forward"));
   EXPECT_EQ(find(headers_of(heard()[0]), "grpc-status"), "7");
   say(call(5, "/stop") + message(5, "halt"));
-  EXPECT_THAT(desk.asked, SizeIs(1));
+  EXPECT_THAT(filter.asked, SizeIs(1));
 }
 
 // gRPC ends in two steps, and so does the front; the last stream in its GOAWAY covers the front's own calls too.
@@ -218,7 +218,7 @@ TEST_F(ConversationTest, GrpcsFarewellIsTheFronts) {
   EXPECT_EQ(number_at(only(FrameType::goaway, heard()).at(0).payload, 0), 0x7fff'ffffu);
   grpc_says(goaway(1, ErrorCode::no_error, ""));
   EXPECT_EQ(number_at(only(FrameType::goaway, heard()).at(0).payload, 0), 3u);
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   EXPECT_THAT(only(FrameType::data, heard()), SizeIs(1));
   conversation->grpc_left();
   heard();
@@ -307,7 +307,7 @@ TEST_F(ConversationTest, WhatIsNoCallOfGrpcIsRefusedAsItsProtocolSays) {
   plain.back().value = "text/plain";
   say(frame(FrameType::headers, kEndHeaders | kEndStream, 3, encoder.encode(plain)));
   EXPECT_EQ(find(headers_of(heard()[0]), ":status"), "415");
-  EXPECT_THAT(desk.judged, IsEmpty());
+  EXPECT_THAT(filter.decided, IsEmpty());
 }
 
 TEST_F(ConversationTest, MalformedHeadersResetTheirStreamAlone) {
@@ -322,7 +322,7 @@ TEST_F(ConversationTest, MalformedHeadersResetTheirStreamAlone) {
     EXPECT_EQ(seen[0].type, FrameType::rst_stream);
     stream += 2;
   }
-  EXPECT_THAT(desk.judged, IsEmpty());
+  EXPECT_THAT(filter.decided, IsEmpty());
   EXPECT_EQ(fault(), "");
 }
 

@@ -62,15 +62,14 @@ Headers headers_of_call(const std::string& path) {
           {":authority", "x"},
           {"content-type", "application/grpc"}};
 }
-std::string unwanted_call(int number) {
+std::string denied_call(int number) {
   const auto stream = static_cast<std::uint32_t>(2 * number + 1);
-  return frame(FrameType::headers, kEndHeaders | kEndStream, stream,
-               encode_without_table(headers_of_call("/unwanted")));
+  return frame(FrameType::headers, kEndHeaders | kEndStream, stream, encode_without_table(headers_of_call("/denied")));
 }
 // Returns as many calls as one read delivers.
-std::string unwanted_burst(int number) {
+std::string denied_burst(int number) {
   std::string burst;
-  for (int i = 0; i < 100; ++i) burst += unwanted_call(100 * number + i);
+  for (int i = 0; i < 100; ++i) burst += denied_call(100 * number + i);
   return burst;
 }
 std::string begun_and_reset(int number) {
@@ -88,7 +87,7 @@ std::string call_in_pieces() {
 // are not charged as control frames.
 std::string behind_its_end(int number, const std::string& frames) {
   const std::string call =
-      frame(FrameType::headers, kEndHeaders | kEndStream, 1, encode_without_table(headers_of_call("/unwanted")));
+      frame(FrameType::headers, kEndHeaders | kEndStream, 1, encode_without_table(headers_of_call("/denied")));
   return number == 0 ? call : frames;
 }
 
@@ -108,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
                           [](int n) { return behind_its_end(n, frame(FrameType::data, 0, 1, "x")); }},
                     Flood{"headers_behind_the_end", 10'000,
                           [](int n) { return behind_its_end(n, frame(FrameType::headers, kEndHeaders, 1, "")); }},
-                    Flood{"unwanted_calls", 400, unwanted_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
+                    Flood{"denied_calls", 400, denied_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
                     Flood{"continuation", 10, continued}));
 
 // A dashboard with many streams acknowledges each message, on the stream and on the connection.
@@ -149,7 +148,7 @@ TEST_F(ConversationTest, HeadersThatAreTooLongAreRefusedByThemselves) {
   say(long_call(3, 120'000));
   EXPECT_EQ(find(headers_of(heard().at(0)), "grpc-status"), "8");
   EXPECT_EQ(fault(), "");
-  EXPECT_THAT(desk.judged, IsEmpty());
+  EXPECT_THAT(filter.decided, IsEmpty());
 }
 
 // One byte of the block stands for a field of 38 bytes: the unpacked size and the number of fields count.
@@ -163,7 +162,7 @@ TEST_F(ConversationTest, HeadersCostWhatTheyAreUnpacked) {
   std::uint32_t stream = 1;
   for (; conversation->not_before() <= now && stream < 100; stream += 2) say(bomb(stream));
   EXPECT_LE(stream, 2u * 9);  // calls of half a megabyte each, instead of 16 KiB
-  EXPECT_THAT(desk.judged, IsEmpty());
+  EXPECT_THAT(filter.decided, IsEmpty());
   EXPECT_EQ(find(headers_of(heard().at(0)), "grpc-status"), "8");
 }
 
@@ -187,10 +186,10 @@ TEST_F(ConversationTest, RefusedCallsOneAfterTheOtherAreSlowedDown) {
   open();
   for (std::uint32_t stream = 1; stream < 1000; stream += 2) {
     now = std::max(now, conversation->not_before());
-    say(call(stream, "/unwanted", true));
+    say(call(stream, "/denied", true));
   }
   EXPECT_EQ(fault(), "");
-  EXPECT_THAT(desk.judged, SizeIs(500));
+  EXPECT_THAT(filter.decided, SizeIs(500));
   EXPECT_GT(now, TimePoint(seconds(5)));
 }
 
@@ -203,7 +202,7 @@ TEST_F(ConversationTest, ConnectionsOfOneSourceShareItsBudget) {
 
 // The caller uses the same token from another machine: the address differs, the caller does not.
 TEST_F(ConversationTest, ACallerHasOneBudgetWhateverItsConnections) {
-  desk.caller = "token anna";
+  filter.caller = "token anna";
   open();
   say(call(1, "/forward"));
   sources.of("token anna", now)->frames.take(Cost::stream, 100'000, now);

@@ -35,7 +35,7 @@ class OwnCallsTest : public ConversationTest {
     std::erase_if(seen, [](const Seen& one) { return one.type == FrameType::window_update; });
     return seen;
   }
-  void answer(std::size_t number, Reply reply) { desk.asked.at(number).second(std::move(reply)); }
+  void answer(std::size_t number, Reply reply) { filter.asked.at(number).second(std::move(reply)); }
 };
 
 TEST_F(OwnCallsTest, AnAnswerOfSeveralMessagesHasOneHeadAndOneEnd) {
@@ -72,12 +72,12 @@ TEST_F(OwnCallsTest, ItsPlaceIsGivenBackAtItsEndOrWhenItsCallerLeaves) {
   open();
   ask(1);
   ask(3);
-  EXPECT_EQ(desk.place.use_count(), 3);
+  EXPECT_EQ(filter.place.use_count(), 3);
   answer(0, {.body = "a"});
   EXPECT_THAT(heard(), SizeIs(3));
-  EXPECT_EQ(desk.place.use_count(), 2);
+  EXPECT_EQ(filter.place.use_count(), 2);
   say(rst_stream(3, ErrorCode::no_error));
-  EXPECT_EQ(desk.place.use_count(), 1);
+  EXPECT_EQ(filter.place.use_count(), 1);
   answer(1, {.body = "too late"});
   EXPECT_THAT(heard(), IsEmpty());
 }
@@ -147,20 +147,20 @@ TEST_F(OwnCallsTest, ATooLongRequestIsRefusedAndTheConnectionGoesOn) {
   const auto ending = std::ranges::find(seen, FrameType::headers, &Seen::type);
   ASSERT_NE(ending, seen.end());
   EXPECT_EQ(find(headers_of(*ending), "grpc-status"), "8");
-  EXPECT_THAT(desk.asked, IsEmpty());
-  EXPECT_EQ(desk.place.use_count(), 1);
+  EXPECT_THAT(filter.asked, IsEmpty());
+  EXPECT_EQ(filter.place.use_count(), 1);
   ask(3);
-  EXPECT_THAT(desk.asked, SizeIs(1));
+  EXPECT_THAT(filter.asked, SizeIs(1));
 }
 
-// The desk refuses such a request, so the refusal is counted and logged like any other.
+// The filter refuses such a request, so the refusal is counted and logged like any other.
 TEST_F(OwnCallsTest, ThatThereIsNotOneWholeMessageIsForTheDesk) {
   open();
   say(call(1, "/ask") + frame(FrameType::data, kEndStream, 1, "\0\0\0\0\2a"s));
   say(call(3, "/ask", true));
-  ASSERT_THAT(desk.asked, SizeIs(2));
-  EXPECT_EQ(desk.asked[0].first, std::nullopt);
-  EXPECT_EQ(desk.asked[1].first, std::nullopt);
+  ASSERT_THAT(filter.asked, SizeIs(2));
+  EXPECT_EQ(filter.asked[0].first, std::nullopt);
+  EXPECT_EQ(filter.asked[1].first, std::nullopt);
   EXPECT_EQ(fault(), "");
 }
 
@@ -169,7 +169,7 @@ TEST_F(OwnCallsTest, LongRequestsThatAreNotWholeAreBoundedTogetherAndAStopFindsR
   Holding others(held);
   others.take(kLimits.held_bytes - 1);
   say(call(1, "/ask") + message(1, std::string(200, 'x')));
-  EXPECT_THAT(desk.asked, SizeIs(1));
+  EXPECT_THAT(filter.asked, SizeIs(1));
   say(call(3, "/ask") + frame(FrameType::data, 0, 3, "\0\0\0\x20\0"s + std::string(2'000, 'x')));
   EXPECT_EQ(find(headers_of(heard().at(0)), "grpc-status"), "8");
   EXPECT_EQ(held.held(), kLimits.held_bytes - 1);

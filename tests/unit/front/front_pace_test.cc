@@ -52,7 +52,7 @@ TEST_F(FrontPaceTest, ATimeBeginsWithWhatIsBegun) {
   pass(seconds(9));
   EXPECT_EQ(fault(), "");
   say(bytes.substr(bytes.size() / 2) + message(1, "halt"));
-  EXPECT_THAT(desk.asked, SizeIs(1));
+  EXPECT_THAT(filter.asked, SizeIs(1));
 }
 
 // The library reports no headers for a call that has ended.

@@ -41,12 +41,12 @@ class FrontTest : public testing::Test {
   }
   void run_until_judged(std::size_t calls) {
     const TimePoint limit = monotonic_now() + std::chrono::seconds(20);
-    while (desk_.judged.size() < calls && monotonic_now() < limit) io_.run_for(std::chrono::milliseconds(1));
-    ASSERT_THAT(desk_.judged, SizeIs(calls));
+    while (filter_.decided.size() < calls && monotonic_now() < limit) io_.run_for(std::chrono::milliseconds(1));
+    ASSERT_THAT(filter_.decided, SizeIs(calls));
   }
 
   boost::asio::io_context io_;
-  TestDesk desk_;
+  TestCallFilter filter_;
   std::vector<Descriptor> to_grpc_;
   FrontLimits limits_ = [] {
     FrontLimits limits;
@@ -54,7 +54,7 @@ class FrontTest : public testing::Test {
     return limits;
   }();
   Front front_{Strand(io_.get_executor()),
-               desk_,
+               filter_,
                std::nullopt,
                [this](Descriptor socket) { to_grpc_.push_back(std::move(socket)); },
                [](const Peer&, const Closing&) {},

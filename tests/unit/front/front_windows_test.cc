@@ -41,7 +41,7 @@ TEST_F(FrontWindowsTest, TheClientsWindowHoldsGrpcBackAndNotAStop) {
   EXPECT_EQ(delivered, 65'535u);  // the client's window
   say(call(3, "/stop") + message(3, "halt") + window_update(0, 100));
   heard();
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   const std::vector<Seen> seen = heard();
   EXPECT_EQ(data_bytes(seen), 11u);
   EXPECT_TRUE(seen.back().ends_stream());
@@ -54,7 +54,7 @@ TEST_F(FrontWindowsTest, AStopIsAnsweredAheadOfADownload) {
   grpc_says(answer(1, false) + frame(FrameType::data, 0, 1, std::string(16'384, 'x')) +
             frame(FrameType::data, 0, 1, std::string(16'384, 'x')));
   say(call(3, "/stop") + message(3, "halt"));
-  desk.asked[0].second({.body = "stands"});
+  filter.asked[0].second({.body = "stands"});
   const std::vector<Seen> seen = only(FrameType::data, heard());
   EXPECT_EQ(seen.at(0).stream, 3u);
 }
@@ -67,7 +67,7 @@ TEST_F(FrontWindowsTest, TheFrontsOwnAnswersAreNotGrpcs) {
   passed_on();
   for (std::uint32_t stream = 3; stream < 900; stream += 2) {
     say(call(stream, "/ask") + message(stream, "?"));
-    desk.asked.back().second({.body = std::string(60'000, 'x')});
+    filter.asked.back().second({.body = std::string(60'000, 'x')});
     heard();
   }
   grpc_says(answer(1, false) + frame(FrameType::data, 0, 1, std::string(10'000, 'x')));

@@ -46,17 +46,17 @@ class Answer {
   virtual std::vector<Reply> take() = 0;
 };
 
-struct Verdict {
+struct Decision {
   enum class What {
     forward,  // to gRPC
-    answer,   // by Desk::answer()
+    answer,   // by CallFilter::answer()
     refuse,
   };
   What what = What::refuse;
   Reply refusal{};
   // The caller lacks the right, or the method does not exist. Such calls have a separate budget, and do not admit the
   // caller.
-  bool unwanted = false;
+  bool denied = false;
   std::shared_ptr<void> place{};  // released when the call has ended
   std::string path{};             // ":path" for gRPC if the call is forwarded
   // The call counts in no limit of its caller, such as a stop. The front bounds the number and the length of these
@@ -68,12 +68,12 @@ struct Verdict {
 };
 
 // Called on the front's thread.
-class Desk {
+class CallFilter {
  public:
-  virtual ~Desk() = default;
+  virtual ~CallFilter() = default;
 
   // `stops_only`: only a stop may be let in, as on a connection of the reserve.
-  virtual Verdict judge(const Headers& headers, const Peer& peer, bool stops_only) = 0;
+  virtual Decision decide(const Headers& headers, const Peer& peer, bool stops_only) = 0;
 
   // Returns the refusal for a call when gRPC cannot be reached because no descriptors are free.
   virtual Reply no_room() = 0;

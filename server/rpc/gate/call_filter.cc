@@ -1,4 +1,4 @@
-#include "server/rpc/gate/desk.h"
+#include "server/rpc/gate/call_filter.h"
 
 #include <fmt/format.h>
 #include <grpcpp/support/status.h>
@@ -20,10 +20,10 @@ namespace axisgate::rpc {
 namespace {
 
 using api::RequestKind;
+using front::Decision;
 using front::Headers;
 using front::Peer;
 using front::Reply;
-using front::Verdict;
 
 // Callers without a name of their own. They share their limits, since no reliable mark distinguishes them.
 constexpr const char* kAnonymous = "a caller over TCP";
@@ -73,43 +73,42 @@ std::optional<TimePoint> deadline_of(const Headers& headers) {
 
 }  // namespace
 
-Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
+Decision CallFilter::decide(const Headers& headers, const Peer& peer, bool stops_only) {
   const std::string_view method = method_of(headers);
   const RequestKind kind = kind_of(method);
   if (kind == RequestKind::unlisted) {
-    return {.what = Verdict::What::refuse, .refusal = no_such_method(method), .unwanted = true};
+    return {.what = Decision::What::refuse, .refusal = no_such_method(method), .denied = true};
   }
   const Result<server::Caller> caller = api_.admission.let_in(kind, credential_for_limits(headers, peer), method);
   if (!caller) return refused(headers, peer, caller.error());
   const std::string named = caller->who == kAnonymous ? "" : caller->who;
   if (api::rule_of(kind).quota == api::Quota::none) {
-    return {.what = Verdict::What::answer, .uncounted = true, .caller = named};
+    return {.what = Decision::What::answer, .uncounted = true, .caller = named};
   }
   // gRPC itself would answer CANCELLED.
   if (const auto ending = api_.streams.ending()) {
     metrics_.count(method, grpc::UNAVAILABLE);
-    return {.what = Verdict::What::refuse, .refusal = to_reply(*ending)};
+    return {.what = Decision::What::refuse, .refusal = to_reply(*ending)};
   }
   if (stops_only) {
     metrics_.count(method, grpc::RESOURCE_EXHAUSTED);
     return refused(headers, peer, nothing_left());
   }
-  return {.what = OwnAnswers::row_of(kind) != nullptr ? Verdict::What::answer : Verdict::What::forward,
+  return {.what = OwnAnswers::row_of(kind) != nullptr ? Decision::What::answer : Decision::What::forward,
           .place = api_.admission.take_place(kind, caller->who),
           .path = served_as(method),
           .caller = named};
 }
 
-front::Verdict Desk::refused(const Headers& headers, const Peer& peer, const Problem& problem) {
+front::Decision CallFilter::refused(const Headers& headers, const Peer& peer, const Problem& problem) {
   refusals_.note(peer, credential_of(headers, peer), method_of(headers), problem.reason, problem.message);
-  return {
-      .what = Verdict::What::refuse, .refusal = to_reply(problem), .unwanted = problem.reason != Reason::queue_full};
+  return {.what = Decision::What::refuse, .refusal = to_reply(problem), .denied = problem.reason != Reason::queue_full};
 }
 
-front::Reply Desk::no_room() { return to_reply(nothing_left()); }
+front::Reply CallFilter::no_room() { return to_reply(nothing_left()); }
 
-std::unique_ptr<front::Answer> Desk::answer(const Headers& headers, const Peer& peer,
-                                            std::optional<std::string_view> message, std::function<void()> wake) {
+std::unique_ptr<front::Answer> CallFilter::answer(const Headers& headers, const Peer& peer,
+                                                  std::optional<std::string_view> message, std::function<void()> wake) {
   return answers_.answer(*OwnAnswers::row_of(kind_of(method_of(headers))),
                          std::make_shared<Served>(metrics_, refusals_, headers, peer), deadline_of(headers), message,
                          std::move(wake));

@@ -2,26 +2,26 @@
 #pragma once
 
 #include "server/api/api.h"
-#include "server/front/desk.h"
+#include "server/front/call_filter.h"
 #include "server/rpc/gate/own_answers.h"
 #include "server/rpc/gate/refusals.h"
 #include "server/rpc/gate/rpc_metrics.h"
 
 namespace axisgate::rpc {
 
-class Desk final : public front::Desk {
+class CallFilter final : public front::CallFilter {
  public:
   // The referenced objects must outlive this one.
-  Desk(api::Api& api, RpcMetrics& metrics, Refusals& refusals)
+  CallFilter(api::Api& api, RpcMetrics& metrics, Refusals& refusals)
       : api_(api), metrics_(metrics), refusals_(refusals), answers_(api) {}
 
-  front::Verdict judge(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
+  front::Decision decide(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
   front::Reply no_room() override;
   std::unique_ptr<front::Answer> answer(const front::Headers& headers, const front::Peer& peer,
                                         std::optional<std::string_view> message, std::function<void()> wake) override;
 
  private:
-  front::Verdict refused(const front::Headers& headers, const front::Peer& peer, const Problem& problem);
+  front::Decision refused(const front::Headers& headers, const front::Peer& peer, const Problem& problem);
 
   api::Api& api_;
   RpcMetrics& metrics_;
