@@ -181,7 +181,7 @@ nobody confirms within 14 days, or `confirm_days` of the configuration, ends EXP
 queue, yours or, for an administrator, any. `mill clear 'unix anna'` takes out all of a caller's jobs that wait, for
 administrators. A job that runs or was begun stays.
 
-After `mill pause --raise` the tool goes up behind what was sent, the spindle stops, and the job is PAUSED. It continues
+After `mill pause --raise` the tool goes up after the last sent byte, the spindle stops, and the job is PAUSED. It continues
 when it is confirmed and started again. A job is PAUSED_UNKNOWN after a broken line or a killed daemon: look at the
 workpiece, and name the line with which it continues: `mill resume JOB --from LINE`. Without --from the answer says where
 what was executed ends. The tool then goes up, above the place, and down. `mill send --rest-of JOB --from LINE` does the

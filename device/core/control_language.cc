@@ -132,7 +132,7 @@ Result<std::vector<Argument>> ControlLanguage::read_arguments(const std::vector<
       return refused(std::string(place) + " is missing");
     }
     if (!take_word(words[i], place, arguments)) {
-      return refused(quoted_word(words[i]) + " cannot stand for " + std::string(place));
+      return refused(quoted_word(words[i]) + " cannot be used as " + std::string(place));
     }
   }
   if (words.size() > places.size()) return refused(quoted_word(words[places.size()]) + " is too much");

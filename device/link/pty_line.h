@@ -1,4 +1,4 @@
-// Plays a device behind a pseudo terminal for one client after another; no client receives bytes meant for the previous
+// Plays a device on a pseudo terminal for one client after another; no client receives bytes meant for the previous
 // one.
 #pragma once
 

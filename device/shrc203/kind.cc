@@ -24,16 +24,16 @@ constexpr std::array<stage::KindSetting, 3> kSettings = {{
     {"wait_for_inputs", {}, "false"},
 }};
 
-bool is(const stage::Words& settings, std::string_view key, std::string_view word) {
+bool is(const Words& settings, std::string_view key, std::string_view word) {
   const auto found = settings.find(key);
   return found != settings.end() && found->second == word;
 }
 
-Scope scope(const stage::Words& settings, std::string_view key) {
+Scope scope(const Words& settings, std::string_view key) {
   return is(settings, key, "axis") ? Scope::axis : Scope::controller;
 }
 
-class SimulatedUnit final : public stage::Simulation {
+class SimulatedUnit final : public Simulation {
  public:
   SimulatedUnit(simulator::Options options, ByteLink& line) : simulator_(std::move(options), line) {}
 
@@ -55,9 +55,8 @@ class Shrc203 final : public stage::Kind {
   std::string_view name() const override { return "shrc203"; }
   std::span<const stage::KindSetting> settings() const override { return kSettings; }
 
-  std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const stage::Words& settings,
-                                                   ByteLink& link, EventSink& events,
-                                                   Permission& permission) const override {
+  std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const Words& settings, ByteLink& link,
+                                                   EventSink& events, Permission& permission) const override {
     Profile own{profile};
     own.busy_scope = scope(settings, "busy_scope");
     own.prebuffer_scope = scope(settings, "prebuffer_scope");
@@ -105,7 +104,7 @@ class Shrc203 final : public stage::Kind {
     return simulator::Options().set(name, value);
   }
 
-  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
+  std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const override {
     simulator::Options chosen;
     for (const auto& [name, value] : options) (void)chosen.set(name, value);  // check_option() has checked them
     return std::make_unique<SimulatedUnit>(std::move(chosen), line);

@@ -7,7 +7,7 @@
 namespace axisgate::server {
 
 inline constexpr std::string_view kNameRule =
-    "a letter, then letters, digits, '-' or '_', at most 32 in all: names stand in resource names and metrics";
+    "a letter, then letters, digits, '-' or '_', at most 32 in all: names are part of resource names and metrics";
 
 // Independent of the locale, unlike std::isalpha.
 inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }

@@ -233,7 +233,7 @@ struct Form<JobChanged> {
   using Texts = std::vector<std::string>;
   static constexpr const char* key = "job";
   static Json write(const JobChanged& change) {
-    const rml1::Job& job = change.job;
+    const jobs::Job& job = change.job;
     Json json{
         {"number", job.number}, {"name", job.name},
         {"owner", job.owner},   {"setup", {job.setup.digest, job.setup.profile, job.setup.origin, job.setup.tool}},
@@ -244,7 +244,7 @@ struct Form<JobChanged> {
     if (!job.setup.left.empty()) json["left"] = job.setup.left;
     if (job.setup.from) json["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
     if (job.part != 0) json["part"] = job.part;
-    for (const rml1::JobPart& part : job.parts) {
+    for (const jobs::JobPart& part : job.parts) {
       json["parts"].push_back({part.tool, part.end, part.takes.least.count(), part.takes.most.count()});
     }
     if (change.sending) json["sending"] = static_cast<int>(*change.sending);
@@ -258,24 +258,24 @@ struct Form<JobChanged> {
                 .owner = json.at("owner"),
                 .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3), json.value("left", Texts()), {}},
                 .bytes = json.at("bytes"),
-                .state = static_cast<rml1::JobState>(json.at("state").get<int>())},
+                .state = static_cast<jobs::JobState>(json.at("state").get<int>())},
         .who = json.at("who"),
         .why = json.at("why")};
     if (json.contains("confirmed")) {
       const Json& confirmed = json.at("confirmed");
-      change.job.confirmation = rml1::Confirmation{confirmed.at(0), time_of(confirmed.at(1))};
+      change.job.confirmation = jobs::Confirmation{confirmed.at(0), time_of(confirmed.at(1))};
     }
     if (json.contains("written")) change.job.written = {json.at("written").at(0), json.at("written").at(1)};
     if (json.contains("from")) {
       const Json& from = json.at("from");
-      change.job.setup.from = rml1::Place{from.at(0), from.at(1), from.at(2)};
+      change.job.setup.from = jobs::Place{from.at(0), from.at(1), from.at(2)};
     }
     change.job.part = json.value("part", std::size_t{0});
     for (const Json& part : json.value("parts", Json::array())) {
-      const rml1::TimeRange takes{Duration(part.at(2)), Duration(part.at(3))};
+      const jobs::TimeRange takes{Duration(part.at(2)), Duration(part.at(3))};
       change.job.parts.push_back({part.at(0), part.at(1), takes, {}});
     }
-    if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());
+    if (json.contains("sending")) change.sending = static_cast<jobs::SenderState>(json.at("sending").get<int>());
     return change;
   }
 };

@@ -7,8 +7,8 @@
 
 namespace axisgate::server::journal {
 
-Entry entry_of(const rml1::Job& job, std::string_view by, std::string_view why, std::string device, TimePoint now) {
-  nlohmann::json body{{"job", job.number},          {"state", rml1::name(job.state)},
+Entry entry_of(const jobs::Job& job, std::string_view by, std::string_view why, std::string device, TimePoint now) {
+  nlohmann::json body{{"job", job.number},          {"state", jobs::name(job.state)},
                       {"digest", job.setup.digest}, {"profile", job.setup.profile},
                       {"origin", job.setup.origin}, {"tool", job.setup.tool}};
   if (job.setup.from) body["from_line"] = job.setup.from->line;

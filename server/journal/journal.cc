@@ -10,8 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "device/core/explain.h"
 #include "device/link/clock.h"
-#include "server/explain.h"
 #include "server/log.h"
 
 namespace axisgate::server::journal {

@@ -375,7 +375,7 @@ Result<Verdict> Store::verify_chain(const std::optional<Head>& noted) {
   if (begin->number != 0 && said_dropped != body_of_dropped(*begin)) {
     return bad(begin->number, "it was removed, and no entry says that it was dropped");
   }
-  if (noted && noted->number >= expected) return bad(expected, "it is missing: the noted head lies behind it");
+  if (noted && noted->number >= expected) return bad(expected, "it is missing: the noted head comes after it");
   return verdict;
 }
 

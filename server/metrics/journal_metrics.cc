@@ -24,7 +24,8 @@ std::vector<prometheus::MetricFamily> JournalMetrics::Collect() const {
             "motions and changes are refused.",
             journal_.failure() ? 0 : 1),
       gauge("axisgate_journal_commit_seconds",
-            "How long the newest commit to the journal took, which each motion waits for; of one that hangs, so far.",
+            "How long the newest commit to the journal took, which each motion waits for; for a commit in progress, "
+            "its time up to now.",
             commit.count())};
 }
 

@@ -14,9 +14,9 @@
 #include <system_error>
 #include <utility>
 
+#include "device/core/explain.h"
 #include "server/access/synced_file.h"
 #include "server/events/wall_time.h"
-#include "server/explain.h"
 #include "server/log.h"
 #include "server/spool/record.h"
 #include "server/spool/sha256.h"

@@ -23,7 +23,7 @@ Every numbered command of the manual, in its order. Made from the command table 
 `ERRATA.md` where the manual contradicts itself.
 
 - **Command**: letters in `<>` are parameters; `[...]` may be left out; `{...|s}` stands once for each axis of `<a>`,
-  with `s` between two. Callers may leave out the sign `+` and the unit of pulses, use either case, and put blanks behind
+  with `s` between two. Callers may leave out the sign `+` and the unit of pulses, use either case, and put blanks after
   commas.
 - **Reply**: `NG` and `NG_I` are possible for every command.
 - **Conditions**: what the manual demands, or the answer is `NG`. *READY*: no axis concerned is BUSY; *excited*: their
@@ -31,7 +31,7 @@ Every numbered command of the manual, in its order. Made from the command table 
   questions of HOST in program mode and memory switch edit mode, too.
 - **Class**: what it does, for the axes that it names or the controller as a whole. Of a question, how its answer is kept
   apart from a completion, which is a bare `1`, `2` or `3`: *by its form*; *sent for all axes*, so that it has commas;
-  *waits* until no completion can come; *closed* by an `!:S` behind it while a single motion runs.
+  *waits* until no completion can come; *closed* by an `!:S` after it while a single motion runs.
 - **RPC**, **axisctl**: the typed call and the verb that do it, or tell it. They send `HRT:` and `ZRT:` where `H:` and
   `Z:` would do the same, `D:` for `DS:`, `DF:` and `DR:`, `EP:` for `E:`, `KP:` for `K:`, `PIT:GRT` and `PAV:GRT` for
   `PIT:G` and `PAV:G`, and an origin return of the kind that the controller is set to; where `WT:` and `WI:` would wait,

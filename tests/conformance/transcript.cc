@@ -57,7 +57,7 @@ class EntryReader {
   std::optional<std::string> optional(std::string_view key) {
     if (next_ == block_.size() || !block_[next_].text.starts_with(key)) return {};
     std::string value = block_[next_].text.substr(key.size());
-    if (value.empty()) throw Mistake{fmt::format("nothing stands behind '{}'", key)};
+    if (value.empty()) throw Mistake{fmt::format("nothing follows '{}'", key)};
     ++next_;
     return value;
   }

@@ -21,7 +21,7 @@ class Rotor final : public stage::Kind {
   std::string_view name() const override { return "rotor"; }
   std::span<const stage::KindSetting> settings() const override { return kSettings; }
 
-  std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const stage::Words& settings,
+  std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words& settings,
                                                           ByteLink& link, stage::EventSink& events,
                                                           stage::Permission& permission) const override {
     const auto direction = settings.find("direction");
@@ -39,7 +39,7 @@ class Rotor final : public stage::Kind {
     return SimulatedRotor::Options().set(name, value);
   }
 
-  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
+  std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const override {
     SimulatedRotor::Options chosen;
     for (const auto& [name, value] : options) (void)chosen.set(name, value);  // already checked
     return std::make_unique<SimulatedRotor>(chosen, line);

@@ -131,7 +131,7 @@ Result<std::int32_t> Controller::plan_start(Live& live) const {
   jog.fastest = jog.sent = jog.speed;
   const auto bound = stop_before_bound(live, jog.speed);
   if (bound && *bound <= now_) {
-    return fail_on(1, Reason::outside_travel, "axis 1 is too near to its travel limit to jog on towards it",
+    return fail_on(1, Reason::outside_travel, "axis 1 is too near to its travel limit to jog further",
                    "move it there, or jog it more slowly");
   }
   return static_cast<std::int32_t>(sign_ * jog.direction * jog.speed);

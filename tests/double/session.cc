@@ -87,7 +87,7 @@ void Controller::wire_lost(const std::string& why) {
     end(id, wrote ? MotionState::unknown : MotionState::failed,
         Problem{.reason = wrote ? Reason::outcome_unknown : Reason::not_sent,
                 .message = fmt::format("the line was lost {}: {}",
-                                       wrote ? "while the motion was under way" : "before the motion was sent", why),
+                                       wrote ? "while the motion was in progress" : "before the motion was sent", why),
                 .hint = "look at the position before moving on"});
   }
   look_after_stops();
@@ -265,7 +265,7 @@ void Controller::cancel_motion(MotionId id, const RequestContext& context, TimeP
 void Controller::wind_down(TimePoint now, OnWoundDown done) {
   at(now, [&] {
     ending_ = Problem{.reason = Reason::not_sent,
-                      .message = "the gateway is ending and sends nothing but stops any more",
+                      .message = "the gateway is ending and now sends only stops",
                       .hint = "try again when it runs again"};
     on_wound_down_ = std::move(done);
     last_report_ = std::make_shared<WindDownReport>();

@@ -10,7 +10,7 @@
 
 namespace axisgate::rotor {
 
-class SimulatedRotor final : public stage::Simulation {
+class SimulatedRotor final : public Simulation {
  public:
   struct Options {
     std::int64_t speed = 10'000;  // pulses/s of moves and origin returns

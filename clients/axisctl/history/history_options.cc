@@ -55,7 +55,7 @@ void add_motions(CLI::App& app, Options& options) {
 void add_history_verbs(CLI::App& app, Options& options) {
   add_history(app, options);
   add_motions(app, options);
-  CLI::App* audit = app.add_subcommand("audit", "for the journal behind `history`: verify, erase");
+  CLI::App* audit = app.add_subcommand("audit", "for the journal of `history`: verify, erase");
   audit->require_subcommand(1);
   audit->fallthrough();
   audit->footer(help_text("audit"));

@@ -39,7 +39,7 @@ void Barrier::restart(TimePoint now) {
   question_before_stop_ = question_before_stop_ || (step_ == Step::echo && line_in_doubt_ != kAnyLine);
   // The stop is now the previous line, so ?:CMD can report nothing more about the line in doubt.
   const bool older = step_ != Step::echo && guarded(Guard::older_identities);
-  begin(older ? Step::behind_stop : Step::identity, now);
+  begin(older ? Step::after_stop : Step::identity, now);
 }
 
 void Barrier::begin(Step step, TimePoint now) {
@@ -58,7 +58,7 @@ void Barrier::begin(Step step, TimePoint now) {
 int Barrier::older_answers(Step step) const {
   if (!guarded(Guard::older_identities)) return 0;
   if (step == Step::identity) return outstanding_.identities;
-  return step == Step::behind_stop ? outstanding_.echoes : 0;
+  return step == Step::after_stop ? outstanding_.echoes : 0;
 }
 
 void Barrier::probe(TimePoint now) {
@@ -85,7 +85,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     return true;
   }
   if (is_known_command(line) && std::exchange(question_before_stop_, false)) echo_ = line;
-  if (step_ == Step::behind_stop && is_known_command(line)) {
+  if (step_ == Step::after_stop && is_known_command(line)) {
     if (older_ > 0) {
       --older_;
       return settle_outstanding(outstanding_, line);
@@ -144,7 +144,7 @@ void Barrier::advance(TimePoint now) {
 void Barrier::probe_again(TimePoint now) {
   if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
     const bool any_line = step_ == Step::echo && line_in_doubt_ == kAnyLine;
-    if (any_line || step_ == Step::behind_stop) return begin(Step::identity, now);
+    if (any_line || step_ == Step::after_stop) return begin(Step::identity, now);
     state_ = State::failed;
   } else {
     probe(now);

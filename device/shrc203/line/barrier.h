@@ -67,9 +67,9 @@ class Barrier {
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
-  // behind_stop: a ?:CMD whose reply shows only that all earlier replies have arrived. Without it, two replies to an
+  // after_stop: a ?:CMD whose reply shows only that all earlier replies have arrived. Without it, two replies to an
   // *IDN? sent before the stop could pass for the reply to the *IDN? sent after it.
-  enum class Step { echo, behind_stop, identity, silence };
+  enum class Step { echo, after_stop, identity, silence };
   void begin(Step step, TimePoint now);
   int older_answers(Step step) const;
   void probe(TimePoint now);

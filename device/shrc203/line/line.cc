@@ -40,7 +40,7 @@ void Line::link_up(TimePoint now) {
   listener_.line_opened(now);
   framer_.clear();
   outstanding_ = {};
-  maybe_in_two_ = false;
+  second_reply_possible_ = false;
   after_refused_stop_.reset();
   timing_.connected();
   flood_.connected();

@@ -239,7 +239,7 @@ class Line {
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;
-  bool maybe_in_two_ = false;  // the newest line may have been cut in two, so a second reply to it may follow
+  bool second_reply_possible_ = false;  // the newest line may have been cut in two, so a second reply to it may follow
   std::optional<TimePoint> after_refused_stop_;  // nothing is sent before this time after a refused stop
   std::optional<TimePoint> partial_since_;       // time at which the present incomplete line was noticed
   std::unique_ptr<Barrier> barrier_;

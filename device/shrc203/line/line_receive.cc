@@ -105,7 +105,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   // Stops are written even while a second reply to the previous line may follow. Only after a refused stop they wait
   // for kPauseAfterRefusedStop.
   const bool is_stop = in_flight_->waiting->request.lane == Lane::stop;
-  const bool maybe_older = is_stop && maybe_in_two_ && !after_refused_stop_;
+  const bool maybe_older = is_stop && second_reply_possible_ && !after_refused_stop_;
   if (refusal && maybe_older && guarded(Guard::refusals_before_stops)) return doubt_answer(line.text, now);
   const bool line_before = in_flight_->echo_first || row.meaning == Meaning::line_before;
   const bool possible = !overlong && (continuity_.could_be(line.text) || !guarded(Guard::possible_lines_before));
@@ -135,7 +135,7 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
 void Line::on_last_command(std::string_view line_before, TimePoint now) {
   const auto verdict = continuity_.compare(line_before, now);
   // A part of the ?:CMD may have been received as another question.
-  maybe_in_two_ = verdict != Continuity::Verdict::same;
+  second_reply_possible_ = verdict != Continuity::Verdict::same;
   if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
     disconnect(
         fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
@@ -230,7 +230,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
   if (reply.kind == Reply::Kind::ng_i) {
     Problem fault{
         .reason = Reason::line_fault,
-        .message = fmt::format("the controller received a character that \"{}\" does not hold (NG_I): the line is "
+        .message = fmt::format("the controller received a character that \"{}\" does not contain (NG_I): the line is "
                                "disturbed",
                                request.command.line),
         .hint = "check the cable and the line settings",
@@ -241,7 +241,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
     return;
   }
   if (reply.kind == Reply::Kind::ng) {
-    maybe_in_two_ = true;
+    second_reply_possible_ = true;
     after_refused_stop_.reset();
     if (request.lane == Lane::stop) after_refused_stop_ = now + kPauseAfterRefusedStop;
   }
@@ -319,7 +319,7 @@ void Line::barrier_moved(TimePoint now) {
   const std::optional<std::string> line_before = barrier_->echo();
   // The controller replies in order, so every line before the *IDN? has been answered or is lost.
   outstanding_.echoes = 0;
-  maybe_in_two_ = false;
+  second_reply_possible_ = false;
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
   const bool connecting = state_.identifying();
@@ -327,7 +327,7 @@ void Line::barrier_moved(TimePoint now) {
   if (doubted_waiting_) {
     if (const auto received = barrier_reported) {
       doubted_->problem->message +=
-          *received ? "; the controller had received it" : "; the controller had not taken it";
+          *received ? "; the controller had received it" : "; the controller had not received it";
       doubted_->received = *received;
     }
     for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);

@@ -114,7 +114,7 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
 bool Line::asks_first(TimePoint now) const {
   const bool paused =
       state_.trusted() && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
-  return paused || (maybe_in_two_ && guarded(Guard::question_after_refusal));
+  return paused || (second_reply_possible_ && guarded(Guard::question_after_refusal));
 }
 
 // Reports whether ?:CMD is sent now. A stop whose turn it is does not wait for ?:CMD.

@@ -13,7 +13,7 @@ Result<std::int64_t> way_of_approach(const AxisMove& move, const Envelope& envel
   const auto way = envelope.pulses(move.axis, *move.approach);
   if (way && *way == 0) {
     return fail_on(move.axis, Reason::invalid_request,
-                   envelope.label(move.axis) + ": an approach of 0 comes from no side",
+                   envelope.label(move.axis) + ": an approach of 0 has no direction",
                    "give the displacement of the approach to the target, such as 50um or -50um");
   }
   return way;

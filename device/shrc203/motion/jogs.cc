@@ -16,7 +16,7 @@ using JogAxes = std::vector<JogRequest::Axis>;
 
 tl::unexpected<Problem> near_bound(const Envelope& envelope, int axis, std::int64_t bound) {
   return fail_on(axis, Reason::outside_travel,
-                 fmt::format("{} is too near to its travel limit of {} to jog on towards it", envelope.label(axis),
+                 fmt::format("{} is too near to its travel limit of {} to jog further", envelope.label(axis),
                              envelope.as_text(axis, bound)),
                  "move it there, or jog it more slowly");
 }

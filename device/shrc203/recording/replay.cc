@@ -266,7 +266,7 @@ void Replay::expect(std::size_t index) {
 void Replay::check_number(const Moment& moment) {
   const std::uint64_t number = moment.begins->exchange;
   if (last_exchange_ > 0 && number != last_exchange_ + 1) {
-    differ(moment.line, fmt::format("exchange {} behind exchange {}", number, last_exchange_),
+    differ(moment.line, fmt::format("exchange {} after exchange {}", number, last_exchange_),
            fmt::format("exchange {}", last_exchange_ + 1));
   }
   last_exchange_ = number;

@@ -164,7 +164,7 @@ Task<std::optional<Problem>> Explainer::wrong_mode(std::string caller) {
     co_return Problem{
         .reason = Reason::wrong_mode,
         .message = fmt::format("{} reports {}; {} is needed", commands::text(question), reported.reply->text, expected),
-        .hint = "put it right at the controller's front panel"};
+        .hint = "correct it at the controller's front panel"};
   }
   co_return std::nullopt;
 }

@@ -17,7 +17,7 @@ namespace {
 
 Result<void> program_outcome(const ProgramStatus& reported) {
   static constexpr std::array<std::string_view, 5> kWhy = {
-      "it names axes that are not controllable", "an error occurred", "it came to a line that it cannot run",
+      "it names axes that are not controllable", "an error occurred", "it reached a line that it cannot run",
       "the motor of one of its axes is off", "one of its axes was BUSY"};
   const auto status = parse_integer(reported.status).value_or(0);
   if (status < 4 || status > 8) return {};

@@ -15,7 +15,7 @@ constexpr std::int64_t kBitsOfAStop = 20 * 10;  // of a stop and the probe after
 
 Task<void> WindDown::run(StageController::OnWoundDown done) {
   ending_ = Problem{.reason = Reason::not_sent,
-                    .message = "the gateway is ending and sends nothing but stops any more",
+                    .message = "the gateway is ending and now sends only stops",
                     .hint = "try again when it runs again"};
   std::vector<MotionId> unfinished;
   for (const auto& [id, live] : motions_.live()) unfinished.push_back(id);

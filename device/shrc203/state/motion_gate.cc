@@ -72,7 +72,7 @@ std::string MotionGate::what_goes_first(const Entry& entry) const {
     return fmt::format("\"{}\" of {} has waited for {} and goes first", question->line, question->caller,
                        waited(question->since));
   }
-  std::string first = "others had theirs";
+  std::string first = "others had their turns";
   queue_.for_each([&](const Entry& other) {
     if (!other.axes.touches(entry.axes) || other.since > overdue_since()) return;
     first = fmt::format("motion {} of {} has waited for {} for {} and goes first", other.id, other.caller,

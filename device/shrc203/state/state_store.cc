@@ -32,7 +32,7 @@ Problem StateStore::not_up() const {
 
 // Another unit is accepted only if none is configured and none has been up since the daemon started.
 std::string StateStore::remedy() const {
-  if (panel_is_wrong()) return "put it right at the controller's front panel";
+  if (panel_is_wrong()) return "correct it at the controller's front panel";
   if (trouble_ != LinkTrouble::other_unit) return "try again when it is up";
   if (!profile_.serial_number.empty()) {
     return "connect the configured unit again, or correct `serial_number` in the configuration";

@@ -53,7 +53,7 @@ TEST_F(LineBarrierTest, AnotherLineBeforeShowsThatItWasNotTaken) {
   script({{"?:CMD\r\n", "?:SN\r\n"}, {"*IDN?\r\n", kIdentityLine}});
   pass(kSilence);
   EXPECT_TRUE(late->result->in_doubt()) << "it may still be on its way";
-  EXPECT_EQ(late->message(), "\"G:1\" was not answered in time; the controller had not taken it");
+  EXPECT_EQ(late->message(), "\"G:1\" was not answered in time; the controller had not received it");
 }
 
 TEST_F(LineBarrierTest, TheTimeLimitIsThatOfTheLineAndTheLongestAnswer) {
