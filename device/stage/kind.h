@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/core/line_machine.h"
 #include "device/core/problem.h"
+#include "device/core/simulation.h"
 #include "device/stage/command_info.h"
 #include "device/stage/event.h"
 #include "device/stage/permission.h"
@@ -37,16 +37,6 @@ struct AdminCommand {
 
   std::string_view name;            // beginning of its lines; any word for a kind without lines
   Request request = Request::none;  // request that sends the command
-};
-
-// Values by key: of KindSettings, or of the options of a simulation.
-using Words = std::map<std::string, std::string, std::less<>>;
-
-// A Simulation is a device that exists in this process only.
-class Simulation : public LineMachine {
- public:
-  // Carries out a command of a person at the device. Returns text for people. Fails with invalid_request.
-  virtual Result<std::string> operate(std::string_view command, TimePoint now) = 0;
 };
 
 // A Kind is stateless and may be used from any thread.

@@ -9,16 +9,15 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/check/stock.h"
-#include "device/rml1/language/place.h"
-#include "device/rml1/language/warning.h"
-#include "device/rml1/machine/extent.h"
-#include "device/rml1/machine/leaves.h"
-#include "device/rml1/sending/job_times.h"
-#include "device/rml1/sending/plan.h"
-#include "device/rml1/sending/settings.h"
+#include "device/jobs/extent.h"
+#include "device/jobs/leaves.h"
+#include "device/jobs/place.h"
+#include "device/jobs/run_on.h"
+#include "device/jobs/send_settings.h"
+#include "device/jobs/stock.h"
+#include "device/jobs/time_range.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 using JobNumber = std::uint64_t;  // of one mill; 0: none
 
@@ -40,7 +39,7 @@ struct JobSetup {
 // One file of a job, sent as a job in itself. Between two of them somebody changes the tool.
 struct JobPart {
   std::string tool;       // a configured name
-  std::uint64_t end = 0;  // the byte of the job behind its last
+  std::uint64_t end = 0;  // byte of the job after its last byte
   TimeRange takes{};      // when it is sent; the rest alone, where it is continued
   RunOn run_on{};         // likewise
 
@@ -116,7 +115,7 @@ struct Job {
   std::size_t part = 0;                   // runs, or is the next to
   Leaves leaves{};                        // of all parts
   Extent extent{};                        // of all parts
-  std::vector<Warning> accepted{};        // kinds of warnings of its check, by its sender
+  std::vector<std::string> accepted{};    // names of the warnings of its check that its sender accepts
   std::int64_t rank = 0;                  // as is_before() has it; 0 as it was sent
   std::optional<Streaming> streaming{};   // none: as the mill has it
   std::optional<Stock> stock{};           // none: nobody has said it
@@ -143,10 +142,9 @@ void go_to_part(Job& job, std::size_t part);
 bool is_waiting(const Job& job);
 // Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
 bool waits_to_begin(const Job& job);
-// Returns how long its part and those behind it take to send and execute. The time of people between them is not
-// counted.
+// Returns the time to send and execute its part and all later parts, without the time of people between them.
 TimeRange takes(const Job& job);
-// Returns the time of the parts behind its part alone.
+// Returns the time of the later parts alone.
 TimeRange takes_later(const Job& job);
 // Returns what runs on after an abort of its part; nothing where that has not been planned.
 std::optional<RunOn> run_on(const Job& job);
@@ -166,4 +164,4 @@ std::string executed_text(const Job& job);
 // "job 7 (part.rml, by unix anna)".
 std::string text_of(const Job& job);
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -1,7 +1,7 @@
 // Workpiece of a job.
 #pragma once
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 // Size in mm from the work origin: X to the right, Y away from the operator, Z down from Z0.
 struct Stock {
@@ -10,4 +10,4 @@ struct Stock {
   friend bool operator==(const Stock&, const Stock&) = default;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

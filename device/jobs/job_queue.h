@@ -10,10 +10,10 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/core/violations.h"
-#include "device/rml1/mill/job.h"
-#include "device/rml1/mill/setup_left.h"
+#include "device/jobs/job.h"
+#include "device/jobs/setup_left.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 // Whose QUEUED jobs another one is moved before.
 enum class Overtaken { all, of_its_owner };
@@ -82,4 +82,4 @@ class JobQueue {
   std::vector<Job> jobs_;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -2,7 +2,7 @@
 // them, because their previous values are unknown.
 #pragma once
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 struct Leaves {
   bool surface = false;      // Z0 (guideline 3-3 !ZO)
@@ -20,4 +20,4 @@ struct Leaves {
   friend bool operator==(const Leaves&, const Leaves&) = default;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

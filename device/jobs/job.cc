@@ -1,4 +1,4 @@
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "device/core/transitions.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 namespace {
 
 constexpr std::array<std::string_view, kJobStates> kJobStateNames = {
@@ -149,4 +149,4 @@ std::string executed_text(const Job& job) {
 
 std::string text_of(const Job& job) { return fmt::format("job {} ({}, by {})", job.number, job.name, job.owner); }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

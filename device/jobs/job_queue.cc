@@ -1,4 +1,4 @@
-#include "device/rml1/mill/job_queue.h"
+#include "device/jobs/job_queue.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 namespace {
 
 // The jobs that `moved` is to be before, in their order, and it itself as the last.
@@ -158,4 +158,4 @@ std::string JobQueue::broken_invariant() const {
   return "";
 }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

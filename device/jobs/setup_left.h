@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 class SetupLeft {
  public:
@@ -32,4 +32,4 @@ class SetupLeft {
   std::uint64_t surfaces_ = 0;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -1,4 +1,4 @@
-#include "device/rml1/mill/confirmations.h"
+#include "device/jobs/confirmations.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 namespace {
 
 constexpr std::string_view kExpired = "the confirmation has expired";
@@ -119,4 +119,4 @@ std::optional<TimePoint> Confirmations::until() const {
   return confirmed == nullptr ? std::nullopt : std::optional(confirmed->confirmation->until);
 }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

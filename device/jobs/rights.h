@@ -8,11 +8,11 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 #include "device/stage/permission.h"
 #include "device/stage/requests.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 // Not thread safe.
 class Rights {
@@ -35,4 +35,4 @@ class Rights {
   stage::Permission& permission_;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 struct Point {
   double x = 0, y = 0, z = 0;
@@ -22,4 +22,4 @@ inline Point sunk(const Point& p, const Point& other) {
 
 inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -5,7 +5,7 @@
 
 #include "device/core/problem.h"
 
-namespace axisgate::server {
+namespace axisgate {
 
 // Returns the message and the hint as one sentence, or as two if the hint begins with a capital.
 inline std::string explain(const Problem& problem) {
@@ -15,4 +15,4 @@ inline std::string explain(const Problem& problem) {
   return problem.message + (!sentence ? "; " : ended ? " " : ". ") + problem.hint;
 }
 
-}  // namespace axisgate::server
+}  // namespace axisgate

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "device/rml1/machine/point.h"
+#include "device/jobs/point.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 struct Reach {
   bool any = false;
@@ -32,4 +32,4 @@ struct Bounds {
   }
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 struct Place {
   std::uint64_t offset = 0;  // bytes, from 0
@@ -14,7 +15,7 @@ struct Place {
 };
 
 // Returns the place after `c`, which is at `place`.
-inline Place behind(const Place& place, char c) {
+inline Place after(const Place& place, char c) {
   return c == '\n' ? Place{place.offset + 1, place.line + 1, 1} : Place{place.offset + 1, place.line, place.column + 1};
 }
 
@@ -25,4 +26,9 @@ struct PlaceRange {
   friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
 };
 
-}  // namespace axisgate::rml1
+// Returns the byte at which a line, or a column of it, begins; both count from 1. Returns the size for a place after
+// the end.
+std::uint64_t offset_of(std::string_view body, std::uint64_t line, std::uint64_t column);
+Place place_of(std::string_view body, std::uint64_t offset);
+
+}  // namespace axisgate::jobs

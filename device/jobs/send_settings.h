@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 enum class Streaming { paced, full };
 
@@ -11,13 +11,13 @@ enum class AtLoss { abort, leave };  // what is sent when the line is back, for 
 
 struct SendSettings {
   Streaming streaming = Streaming::paced;
-  std::size_t window = 0;          // bytes, of paced streaming; 0: adapted to the job (window.h)
+  std::size_t window = 0;          // bytes, of paced streaming; 0: adapted to the job
   double slack = 1.5;              // how many times as slow as the slowest of its profile a mill may be
-  bool slack_as_measured = false;  // that, or less where the mill's pace was measured (pace_meter.h)
+  bool slack_as_measured = false;  // that, or less if the mill's pace was measured
   std::size_t buffer = 1024;       // bytes, the mill's
   std::size_t converter = 512;     // bytes, between host and mill
   int baud = 9600;
   bool flow_control = false;  // the line keeps the host from sending what the mill has no room for
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -8,11 +8,11 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/rml1/mill/job.h"
-#include "device/rml1/mill/job_queue.h"
-#include "device/rml1/mill/setup_left.h"
+#include "device/jobs/job.h"
+#include "device/jobs/job_queue.h"
+#include "device/jobs/setup_left.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 // Not thread safe.
 class Confirmations {
@@ -44,4 +44,4 @@ class Confirmations {
   const Duration lasts_;
 };
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -1,8 +1,8 @@
-#include "device/rml1/mill/rights.h"
+#include "device/jobs/rights.h"
 
 #include <fmt/format.h>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 namespace {
 
 stage::Use whole_mill(const stage::RequestContext& by, JobNumber job) {
@@ -34,4 +34,4 @@ void Rights::advance(const std::function<void(std::string_view who)>& abort, Tim
   for (const stage::EndedLease& lease : orders.restoring) permission_.settings_restored(lease.token, now);
 }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

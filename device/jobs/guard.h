@@ -7,7 +7,7 @@
 #include <optional>
 #endif
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 enum class MillGuard {
   // Limits on bytes sent before the mill has executed them
@@ -41,4 +41,4 @@ inline bool guarded(MillGuard guard) { return removed_mill_guard != guard; }
 constexpr bool guarded(MillGuard) { return true; }
 #endif
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -1,8 +1,8 @@
-#include "device/rml1/machine/extent.h"
+#include "device/jobs/extent.h"
 
 #include <fmt/format.h>
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 namespace {
 
 void take(Reach& all, const Reach& one) {
@@ -26,8 +26,8 @@ Bounds scaled(const Bounds& bounds, double factor) {
 }  // namespace
 
 void Extent::take(const Extent& other) {
-  rml1::take(driven, other.driven);
-  rml1::take(cut, other.cut);
+  jobs::take(driven, other.driven);
+  jobs::take(cut, other.cut);
 }
 
 Extent scaled(const Extent& extent, double factor) {
@@ -39,4 +39,4 @@ std::string size_text(const Extent& extent) {
   return fmt::format("{:.1f} x {:.1f} mm, {:.2f} mm deep", extent.cut.x.size(), extent.cut.y.size(), extent.deepest());
 }
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "device/rml1/machine/bounds.h"
+#include "device/jobs/bounds.h"
 
-namespace axisgate::rml1 {
+namespace axisgate::jobs {
 
 // Bounds in mm from the work origin and from Z0; Z grows upward.
 struct Extent {
@@ -23,4 +23,4 @@ Extent scaled(const Extent& extent, double factor);
 // Returns "38.0 x 30.0 mm, 1.70 mm deep", or "cuts nothing".
 std::string size_text(const Extent& extent);
 
-}  // namespace axisgate::rml1
+}  // namespace axisgate::jobs

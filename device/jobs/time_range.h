@@ -1,0 +1,19 @@
+// A duration that is known as a range: a machine that is sent jobs never says how fast it is.
+#pragma once
+
+#include "device/core/time.h"
+
+namespace axisgate::jobs {
+
+struct TimeRange {
+  Duration least{}, most{};
+
+  friend bool operator==(const TimeRange&, const TimeRange&) = default;
+  TimeRange& operator+=(const TimeRange& other) {
+    least += other.least;
+    most += other.most;
+    return *this;
+  }
+};
+
+}  // namespace axisgate::jobs
