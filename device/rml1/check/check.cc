@@ -109,7 +109,7 @@ void Check::finish() {
   summary_.commands = parser_.commands();
 }
 
-Extent Check::extent() const { return scaled({summary_.bounds, summary_.cut}, profile_.step_mm); }
+jobs::Extent Check::extent() const { return jobs::scaled({summary_.bounds, summary_.cut}, profile_.step_mm); }
 
 void Check::report_no_command() {
   if (parser_.commands() > 0 || diagnostics_.count(Severity::error) > 0) return;
@@ -131,7 +131,7 @@ double Check::arrival(std::uint64_t end) const {
 }
 
 void Check::moved(const Move& move) {
-  const Point way = (move.to - move.from) * profile_.step_mm;
+  const jobs::Point way = (move.to - move.from) * profile_.step_mm;
   // The descent from the height where the tool is when a job begins says nothing about the job.
   const bool first_height = !moved_ && way.x == 0 && way.y == 0;
   moved_ = true;
@@ -164,7 +164,7 @@ void Check::waited(Wait what, double seconds, std::uint64_t end) {
   take(wait_time(what, seconds, profile_.acceleration), end);
 }
 
-void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {
+void Check::commanded(const jobs::Point& from, const jobs::Point& target, bool height_alone, const Instruction& by) {
   judge_.commanded(from, target, height_alone, machine_.box(), by);
   if (!height_alone) profile_judge_.commanded(target, by);
   if (target.z < 0) profile_judge_.deepened(target, by);
@@ -172,7 +172,8 @@ void Check::commanded(const Point& from, const Point& target, bool height_alone,
   if (target.z > 0 && says_height) profile_judge_.lifted(target.z, by);
   if (!by.first && machine_.dwell_s() > 0) take(dwell_between_points(machine_.dwell_s()), by.end);
   if (moves_ == nullptr) return;
-  find_left_out(machine_.box(), from, target, [this](const Point& a, const Point& b) { moves_->left_out(a, b); });
+  find_left_out(machine_.box(), from, target,
+                [this](const jobs::Point& a, const jobs::Point& b) { moves_->left_out(a, b); });
 }
 
 void Check::lifted(double steps, const Instruction& by) { profile_judge_.lifted(steps, by); }

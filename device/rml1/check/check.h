@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "device/jobs/bounds.h"
+#include "device/jobs/extent.h"
 #include "device/rml1/check/judge.h"
 #include "device/rml1/check/opening.h"
 #include "device/rml1/check/profile_judge.h"
@@ -14,16 +16,14 @@
 #include "device/rml1/check/workload.h"
 #include "device/rml1/language/diagnostic.h"
 #include "device/rml1/language/parser.h"
-#include "device/rml1/machine/bounds.h"
-#include "device/rml1/machine/extent.h"
 #include "device/rml1/machine/machine.h"
 #include "device/rml1/machine/move_time.h"
 
 namespace axisgate::rml1 {
 
 struct CheckOptions {
-  std::optional<Origin> origin;  // nullopt: only sizes are judged
-  std::optional<Stock> stock;
+  std::optional<jobs::Origin> origin;  // nullopt: only sizes are judged
+  std::optional<jobs::Stock> stock;
   std::vector<KnownMachine> others;
   std::optional<double> tool_mm{};  // diameter, above 0
   // Name of the machine for which the job was made, if its maker named one; empty: the job itself shows it.
@@ -32,15 +32,15 @@ struct CheckOptions {
 
 // Lengths are steps of the workpiece system.
 struct Summary {
-  Point final;    // real place of the tool
-  Bounds bounds;  // bounds of the driven path, without the height at which the job begins
-  Bounds cut;     // bounds of the part of the driven path that cuts
+  jobs::Point final;    // real place of the tool
+  jobs::Bounds bounds;  // bounds of the driven path, without the height at which the job begins
+  jobs::Bounds cut;     // bounds of the part of the driven path that cuts
   double seconds_low = 0, seconds_high = 0;
   // Part of seconds_high: descent from the height at which the job begins; 0 if the origin is known.
   double seconds_down = 0;
   double distance_mm = 0, cutting_mm = 0;
   std::uint64_t spin_ups = 0;
-  Reach rpm;  // while cutting
+  jobs::Reach rpm;  // while cutting
   std::uint64_t commands = 0;
 };
 
@@ -65,18 +65,18 @@ class Check : private MachineListener, private ParserListener {
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const Summary& summary() const { return summary_; }  // call after finish()
   const std::vector<Section>& sections() const { return workload_.sections(); }
-  const Leaves& leaves() const { return state_judge_.leaves(); }
+  const jobs::Leaves& leaves() const { return state_judge_.leaves(); }
   const std::optional<double>& tool_mm() const { return options_.tool_mm; }
   std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
-  Extent extent() const;  // call after finish()
+  jobs::Extent extent() const;  // call after finish()
 
  private:
   void execute(const Instruction& instruction) override;
   void quit() override { machine_.quit(); }
   void moved(const Move& move) override;
   void waited(Wait what, double seconds, std::uint64_t end) override;
-  void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) override;
+  void commanded(const jobs::Point& from, const jobs::Point& target, bool height_alone, const Instruction& by) override;
   void lifted(double steps, const Instruction& by) override;
 
   void judge_opening();

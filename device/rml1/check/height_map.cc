@@ -13,8 +13,8 @@ std::uint32_t tile_of(std::int64_t cell) { return static_cast<std::uint32_t>(cel
 HeightMap::HeightMap(double diameter, double longest)
     : size_(diameter / (2 * kRadius + 1)), longest_(longest / size_) {}
 
-HeightMap::Taken HeightMap::cut(const Point& from, const Point& to) {
-  const Point way = to - from;
+HeightMap::Taken HeightMap::cut(const jobs::Point& from, const jobs::Point& to) {
+  const jobs::Point way = to - from;
   const double plane = std::hypot(way.x, way.y) / size_;
   // A tool that moves straight down begins another pass.
   if (plane == 0) path_ += kVisit;
@@ -30,7 +30,7 @@ HeightMap::Taken HeightMap::cut(const Point& from, const Point& to) {
 }
 
 // Lowers a disc of cells, row by row. A row nearly always lies in one tile.
-void HeightMap::sample(const Point& p, Taken& taken) {
+void HeightMap::sample(const jobs::Point& p, Taken& taken) {
   const auto x = static_cast<std::int64_t>(std::floor(p.x / size_));
   const auto y = static_cast<std::int64_t>(std::floor(p.y / size_));
   const auto z = static_cast<float>(p.z);

@@ -8,7 +8,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "device/rml1/machine/point.h"
+#include "device/jobs/point.h"
 
 namespace axisgate::rml1 {
 
@@ -23,7 +23,7 @@ class HeightMap {
     double volume = 0;  // cubic steps
   };
   // Cuts along a straight path at or below the surface.
-  Taken cut(const Point& from, const Point& to);
+  Taken cut(const jobs::Point& from, const jobs::Point& to);
   // Starts another visit of each place: later cuts count as new passes.
   void change_tool() { path_ += kVisit; }
   // Reports whether a part of the job was not measured.
@@ -44,7 +44,7 @@ class HeightMap {
   static constexpr std::size_t kTiles = 2048;
 
   Cell* cell(std::int64_t x, std::int64_t y);
-  void sample(const Point& p, Taken& taken);
+  void sample(const jobs::Point& p, Taken& taken);
 
   double size_;     // size of a cell, in steps
   double longest_;  // in cells

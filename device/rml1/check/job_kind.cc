@@ -11,7 +11,7 @@ bool is_mark(char c) { return c == '\xEF' || c == '\xBB' || c == '\xBF'; }
 JobKind::Verdict JobKind::take(char c) {
   if (verdict_ != Verdict::nothing_yet) return verdict_;
   verdict_ = judge(c);
-  next_ = behind(next_, c);
+  next_ = after(next_, c);
   if (verdict_ == Verdict::nothing_yet && next_.offset == kLongest) verdict_ = Verdict::rml;
   return verdict_;
 }
@@ -21,7 +21,7 @@ JobKind::Verdict JobKind::judge(char c) {
     if (c == '\n') in_ = In::blanks;
     return Verdict::nothing_yet;
   }
-  if (in_ == In::letter) return judge_behind_letter(c);
+  if (in_ == In::letter) return judge_after_letter(c);
   if (in_ == In::number && (is_digit(c) || c == '.')) return Verdict::nothing_yet;
   word_ = next_;
   if (c == '%' || c == '(') return Verdict::g_code;
@@ -38,7 +38,7 @@ JobKind::Verdict JobKind::judge(char c) {
   return Verdict::nothing_yet;
 }
 
-JobKind::Verdict JobKind::judge_behind_letter(char c) {
+JobKind::Verdict JobKind::judge_after_letter(char c) {
   if (is_blank(c)) return Verdict::nothing_yet;
   if (!begins_number(c)) return Verdict::rml;
   const bool only_g_code = letter_ == 'G' || letter_ == 'N' || letter_ == 'O';

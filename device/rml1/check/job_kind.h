@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "device/jobs/place.h"
 #include "device/rml1/language/characters.h"
-#include "device/rml1/language/place.h"
 
 namespace axisgate::rml1 {
 
@@ -18,18 +18,18 @@ class JobKind {
   // Takes the next byte. The verdict comes after kLongest bytes at the latest, and then never changes.
   Verdict take(char c);
 
-  const Place& place() const { return word_; }  // place of the G-code that was recognised
+  const jobs::Place& place() const { return word_; }  // place of the G-code that was recognised
 
  private:
   enum class In : std::uint8_t { blanks, comment, letter, number };
 
   Verdict judge(char c);
-  Verdict judge_behind_letter(char c);
+  Verdict judge_after_letter(char c);
 
   static constexpr std::size_t kLongest = 1 << 16;  // the comments of some programs draw a picture
 
-  Place next_;  // place of the next byte
-  Place word_;  // place of the last word's letter
+  jobs::Place next_;  // place of the next byte
+  jobs::Place word_;  // place of the last word's letter
   char letter_ = 0;
   In in_ = In::blanks;
   Verdict verdict_ = Verdict::nothing_yet;

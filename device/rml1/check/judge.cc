@@ -20,7 +20,7 @@ bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
 }  // namespace
 
 template <class Text>
-void Judge::warn_once(Warning warning, const Place& place, std::string_view section, Text&& text) {
+void Judge::warn_once(Warning warning, const jobs::Place& place, std::string_view section, Text&& text) {
   if (reported_.insert(warning).second) diagnostics_.warn(warning, place, section, text);
 }
 
@@ -45,7 +45,7 @@ void Judge::judge_stock(const Move& move) {
   const double x = profile_.steps(stock_->x) + kHalfStep, y = profile_.steps(stock_->y) + kHalfStep;
   const double bottom = -profile_.steps(stock_->z) - kHalfStep;
   // The stock is convex, so a cut below the surface lies inside if both of its ends do.
-  for (const Point& p : {sunk(move.from, move.to), sunk(move.to, move.from)}) {
+  for (const jobs::Point& p : {sunk(move.from, move.to), sunk(move.to, move.from)}) {
     if (p.x < -kHalfStep || p.y < -kHalfStep || p.x > x || p.y > y) {
       warn_once(Warning::outside_stock, move.place, "5-1", [&] {
         return fmt::format("below the surface outside of the stock, towards X {:.2f} mm, Y {:.2f} mm", mm(p.x),
@@ -61,7 +61,7 @@ void Judge::judge_stock(const Move& move) {
   }
 }
 
-void Judge::commanded(const Point& from, const Point& target, bool height_alone, const Box& box,
+void Judge::commanded(const jobs::Point& from, const jobs::Point& target, bool height_alone, const Box& box,
                       const Instruction& by) {
   const bool cuts = from.z < 0 || target.z < 0;
   if (diagnostics_.count(Severity::error) == 0) ++paths_before_errors_;
@@ -73,9 +73,9 @@ void Judge::commanded(const Point& from, const Point& target, bool height_alone,
   if (origin_known_) judge_area(target, box, by.place);
 }
 
-void Judge::take_plane(const Point& from, const Point& target, const Place& place) {
-  const Bounds before = asked_;
-  for (const Point& p : {from, target}) {
+void Judge::take_plane(const jobs::Point& from, const jobs::Point& target, const jobs::Place& place) {
+  const jobs::Bounds before = asked_;
+  for (const jobs::Point& p : {from, target}) {
     asked_.x.take(p.x);
     asked_.y.take(p.y);
   }
@@ -83,7 +83,7 @@ void Judge::take_plane(const Point& from, const Point& target, const Place& plac
   if (asked_.y.size() > before.y.size()) widest_y_ = place;
 }
 
-void Judge::judge_area(const Point& target, const Box& box, const Place& place) {
+void Judge::judge_area(const jobs::Point& target, const Box& box, const jobs::Place& place) {
   if (!box.over(target)) {
     const bool cuts = target.z < 0;
     const auto text = [&] {
@@ -113,18 +113,18 @@ bool Judge::fits(double size, double area_mm, double step_mm) const { return siz
 
 void Judge::judge_sizes() {
   // Heights above the top are clipped (3-2 PU), so they do not count as a size.
-  Reach depth;
+  jobs::Reach depth;
   depth.take(0);
   depth.take(std::min(0.0, asked_.z.lowest));
   struct Size {
     std::string_view axis;
     double steps, area_mm;
-    Place place;
+    jobs::Place place;
   };
   const Size sizes[] = {{"X", asked_.x.size(), profile_.x_mm, widest_x_},
                         {"Y", asked_.y.size(), profile_.y_mm, widest_y_},
                         {"Z", depth.size(), profile_.z_mm, deepest_}};
-  std::optional<Place> first;
+  std::optional<jobs::Place> first;
   for (const Size& size : sizes) {
     if (fits(size.steps, size.area_mm, profile_.step_mm)) continue;
     if (!first) first = size.place;

@@ -34,7 +34,7 @@ bool any_begins(std::string_view text, std::string_view& name, auto&& list) {
   return true;
 }
 
-std::string_view behind_blanks(std::string_view text) {
+std::string_view after_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
 }
@@ -85,7 +85,7 @@ std::optional<std::string_view> known_file(std::string_view head) {
   if (is_utf_16(head)) return "a text in UTF-16";
   if (head.starts_with("BM") && is_binary(head)) return "a BMP picture";
   if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
-  const std::string_view text = behind_blanks(head);
+  const std::string_view text = after_blanks(head);
   const std::string capitals = in_capitals(text);
   if (is_gerber(text)) return "a Gerber file";
   if (is_text_stl(capitals)) return "a model in STL";

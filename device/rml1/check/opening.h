@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "device/jobs/place.h"
 #include "device/rml1/check/job_kind.h"
-#include "device/rml1/language/place.h"
 
 namespace axisgate::rml1 {
 
@@ -21,8 +21,8 @@ class Opening {
 
   Verdict verdict() const { return verdict_; }
   const std::string& held() const { return held_; }
-  std::string_view what() const { return what_; }              // kind of another file, such as "a PDF document"
-  const Place& g_code_place() const { return kind_.place(); }  // place of the first word
+  std::string_view what() const { return what_; }                    // kind of another file, such as "a PDF document"
+  const jobs::Place& g_code_place() const { return kind_.place(); }  // place of the first word
 
  private:
   void take(char c);

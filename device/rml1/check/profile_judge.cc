@@ -44,7 +44,7 @@ std::size_t find_name(std::string_view text, std::string_view name) {
   return at + name.size() < text.size() && is_digit(text[at + name.size()]) ? std::string_view::npos : at;
 }
 
-Place place_at(std::string_view text, std::size_t at) {
+jobs::Place place_at(std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, at);
   const auto line = static_cast<std::uint64_t>(std::ranges::count(before, '\n'));
   const std::size_t begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
@@ -54,7 +54,8 @@ Place place_at(std::string_view text, std::size_t at) {
 }  // namespace
 
 // Keeps the first suspicion. A named machine (made_for_) takes precedence over everything that the job shows.
-void ProfileJudge::suspect(std::string why, const std::vector<std::string>& names, double step_mm, const Place& place) {
+void ProfileJudge::suspect(std::string why, const std::vector<std::string>& names, double step_mm,
+                           const jobs::Place& place) {
   if (suspicion_ || !made_for_.empty()) return;
   suspicion_ = Suspicion{std::move(why), fmt::format("{}", fmt::join(names, " or ")), step_mm, place};
 }
@@ -115,12 +116,12 @@ void ProfileJudge::lifted(double steps, const Instruction& by) {
   }
 }
 
-void ProfileJudge::deepened(const Point& target, const Instruction& by) {
+void ProfileJudge::deepened(const jobs::Point& target, const Instruction& by) {
   clues_.deep(-target.z);
   if (!deep_) deep_ = by.place;
 }
 
-void ProfileJudge::commanded(const Point& target, const Instruction& by) {
+void ProfileJudge::commanded(const jobs::Point& target, const Instruction& by) {
   ++paths_;
   if (raster_ != 0 && raster_ < kSmallestRaster) return;
   if (!first_) first_ = by.place;
@@ -163,7 +164,7 @@ void ProfileJudge::suspect_by_clues() {
   if (!names.empty() && deep_) suspect("its depths and lifts are usual there", names, step_mm, *deep_);
 }
 
-void ProfileJudge::finish(const Extent& extent) {
+void ProfileJudge::finish(const jobs::Extent& extent) {
   made_for_.empty() ? suspect_by_clues() : suspect_as_said();
   if (!suspicion_) return judge_raster();
   diagnostics_.warn(Warning::made_for_another_mill, suspicion_->place, "1-1", [&] {

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "device/jobs/extent.h"
+#include "device/jobs/point.h"
 #include "device/rml1/check/unit_clues.h"
 #include "device/rml1/language/diagnostic.h"
 #include "device/rml1/language/instruction.h"
-#include "device/rml1/machine/extent.h"
 #include "device/rml1/machine/known_machine.h"
-#include "device/rml1/machine/point.h"
 #include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
@@ -33,11 +33,11 @@ class ProfileJudge {
   // Takes a lift by `steps`, or to that height above Z0.
   void lifted(double steps, const Instruction& by);
   // Takes the end of a straight commanded path, in steps.
-  void commanded(const Point& target, const Instruction& by);
+  void commanded(const jobs::Point& target, const Instruction& by);
   // Takes a path that leads below Z0, to the depth of `target`.
-  void deepened(const Point& target, const Instruction& by);
+  void deepened(const jobs::Point& target, const Instruction& by);
   // `extent`: extent of the job on this machine.
-  void finish(const Extent& extent);
+  void finish(const jobs::Extent& extent);
 
   // Highest speed in mm/s that the job sets and the machine cannot reach; nullopt if there is none.
   std::optional<double> speed_not_reached() const { return speed_not_reached_; }
@@ -48,10 +48,10 @@ class ProfileJudge {
     std::string why;
     std::string names;  // names of these machines: "MDX-15 and the MDX-20"
     double step_mm = 0;
-    Place place;
+    jobs::Place place;
   };
 
-  void suspect(std::string why, const std::vector<std::string>& names, double step_mm, const Place& place);
+  void suspect(std::string why, const std::vector<std::string>& names, double step_mm, const jobs::Place& place);
   void suspect_as_said();
   double odds_of(double step_mm) const;
   void suspect_by_clues();
@@ -70,12 +70,12 @@ class ProfileJudge {
   std::uint64_t paths_ = 0;
   bool own_travel_ = false;          // the job has a lift by the whole travel of this machine
   std::optional<Suspicion> travel_;  // the job has a lift by the whole travel of machines with another step
-  std::optional<Place> deep_;        // place of the first path that leads below Z0
+  std::optional<jobs::Place> deep_;  // place of the first path that leads below Z0
   bool plane_speed_reported_ = false, height_speed_reported_ = false;
   std::optional<double> speed_not_reached_;
   std::int64_t raster_ = 0;           // greatest common divisor of all X and Y, in steps
   std::set<std::int64_t> different_;  // different X and Y, as many as are needed
-  std::optional<Place> first_;        // place of the first path with X and Y
+  std::optional<jobs::Place> first_;  // place of the first path with X and Y
 };
 
 }  // namespace axisgate::rml1

@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "device/jobs/leaves.h"
 #include "device/rml1/language/diagnostic.h"
 #include "device/rml1/language/instruction.h"
-#include "device/rml1/machine/leaves.h"
 #include "device/rml1/machine/machine.h"
 #include "device/rml1/machine/profile.h"
 
@@ -21,7 +21,7 @@ class StateJudge {
   void executed(const Instruction& instruction);
   void finish(const Machine& machine);
 
-  const Leaves& leaves() const { return leaves_; }
+  const jobs::Leaves& leaves() const { return leaves_; }
 
  private:
   void set_surface(const Instruction& instruction);
@@ -30,9 +30,9 @@ class StateJudge {
 
   const Profile& profile_;
   Diagnostics& diagnostics_;
-  Leaves leaves_;
+  jobs::Leaves leaves_;
   bool revolutions_reported_ = false;
-  Place relative_, dwell_;  // places of the last commands that set them
+  jobs::Place relative_, dwell_;  // places of the last commands that set them
 };
 
 }  // namespace axisgate::rml1

@@ -23,7 +23,7 @@ void Workload::continues(Workload& before) {
 
 double Workload::moved(const Move& move, double speed) {
   if (!move.cuts() || move.lifts()) return 0;
-  const Point from = sunk(move.from, move.to), to = sunk(move.to, move.from);
+  const jobs::Point from = sunk(move.from, move.to), to = sunk(move.to, move.from);
   const HeightMap::Taken taken = map_.cut(from, to);
   const bool plunges = from.x == to.x && from.y == to.y;
   Section& one = section(plunges, speed, move.place);
@@ -37,7 +37,7 @@ double Workload::moved(const Move& move, double speed) {
   return taken.depth * step_mm_;
 }
 
-Section& Workload::section(bool plunges, double speed, const Place& place) {
+Section& Workload::section(bool plunges, double speed, const jobs::Place& place) {
   const auto wanted = [&](const Section& one) { return one.plunges == plunges && one.speed == speed; };
   auto found = std::ranges::find_if(sections_, wanted);
   if (found == sections_.end() && sections_.size() + 1 >= kSections) {

@@ -13,7 +13,7 @@ namespace axisgate::rml1 {
 struct Section {
   bool plunges = false;  // straight down
   double speed = 0;      // mm/s, as set and limited to the machine's; 0: further speeds
-  Place first;           // place of its first command
+  jobs::Place first;     // place of its first command
   double cutting_mm = 0;
   double deepest_mm = 0;                // below Z0
   double pass_mm = 0;                   // greatest depth of one pass
@@ -36,7 +36,7 @@ class Workload {
   static constexpr std::size_t kSections = 12;
 
  private:
-  Section& section(bool plunges, double speed, const Place& place);
+  Section& section(bool plunges, double speed, const jobs::Place& place);
 
   double step_mm_;
   bool tool_known_;

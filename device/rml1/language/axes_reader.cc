@@ -19,7 +19,7 @@ void AxesReader::begin() {
   group_ended_ = false;
 }
 
-AxesReader::Found AxesReader::take(char c, const Place& place) {
+AxesReader::Found AxesReader::take(char c, const jobs::Place& place) {
   if (state_ == State::number) {
     if (number_.take(c)) return Found::nothing;
     end_number();
@@ -33,13 +33,13 @@ AxesReader::Found AxesReader::take(char c, const Place& place) {
       state_ = State::number;
       return Found::nothing;
     }
-    fail(3, target_.place, "an axis without a number: this group and all behind it are skipped");
+    fail(3, target_.place, "an axis without a number: this group and all after it are skipped");
     return is_end(c) ? Found::end : Found::nothing;
   }
   return letter(c, place);
 }
 
-AxesReader::Found AxesReader::letter(char c, const Place& place) {
+AxesReader::Found AxesReader::letter(char c, const jobs::Place& place) {
   if (group_ended_) count_ = 0;
   group_ended_ = false;
   if (c == ':' || is_end(c)) {
@@ -52,21 +52,21 @@ AxesReader::Found AxesReader::letter(char c, const Place& place) {
     state_ = State::value;
     const auto same = [this](const AxisTarget& target) { return target.letter == target_.letter; };
     if (std::any_of(targets_.begin(), targets_.begin() + static_cast<std::ptrdiff_t>(count_), same)) {
-      fail(2, place, "an axis is named twice in one group: this group and all behind it are skipped");
+      fail(2, place, "an axis is named twice in one group: this group and all after it are skipped");
     } else if (move_apart(target_.letter)) {
-      fail(3, place, "axes that this machine cannot move at once: this group and all behind it are skipped");
+      fail(3, place, "axes that this machine cannot move at once: this group and all after it are skipped");
     }
     return Found::nothing;
   }
   fail(3, place,
-       begins_number(c) ? "a number without an axis: this group and all behind it are skipped"
-                        : "no letter of an axis: this group and all behind it are skipped");
+       begins_number(c) ? "a number without an axis: this group and all after it are skipped"
+                        : "no letter of an axis: this group and all after it are skipped");
   return Found::nothing;
 }
 
 void AxesReader::end_number() {
   if (number_.sign_alone()) {
-    fail(3, target_.place, "an axis without a number: this group and all behind it are skipped");
+    fail(3, target_.place, "an axis without a number: this group and all after it are skipped");
     return;
   }
   const double value = number_.value();
@@ -80,7 +80,7 @@ void AxesReader::end_number() {
   state_ = State::letter;
 }
 
-void AxesReader::fail(int number, const Place& place, std::string_view why) {
+void AxesReader::fail(int number, const jobs::Place& place, std::string_view why) {
   diagnostics_.error(number, place, kSection, [why] { return why; });
   state_ = State::skip;
 }

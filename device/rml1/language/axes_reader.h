@@ -26,15 +26,15 @@ class AxesReader {
     end,      // the command ends without another group
   };
   void begin();
-  Found take(char c, const Place& place);
+  Found take(char c, const jobs::Place& place);
   std::span<const AxisTarget> targets() const { return {targets_.data(), count_}; }
 
  private:
   enum class State : std::uint8_t { letter, value, number, skip };
 
-  Found letter(char c, const Place& place);
+  Found letter(char c, const jobs::Place& place);
   void end_number();
-  void fail(int number, const Place& place, std::string_view why);
+  void fail(int number, const jobs::Place& place, std::string_view why);
   bool move_apart(char letter) const;
 
   const std::vector<std::string>& apart_;
@@ -42,7 +42,7 @@ class AxesReader {
   State state_ = State::letter;
   bool group_ended_ = false;  // the next letter begins a new group
   NumberReader number_;
-  Place number_place_;
+  jobs::Place number_place_;
   AxisTarget target_;
   std::array<AxisTarget, 26> targets_{};
   std::size_t count_ = 0;

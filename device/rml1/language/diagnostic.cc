@@ -32,7 +32,7 @@ std::vector<Diagnostics::Omitted> Diagnostics::omitted() const {
   return all;
 }
 
-bool Diagnostics::keeps(const void* id, const Place& place) {
+bool Diagnostics::keeps(const void* id, const jobs::Place& place) {
   auto kind = std::ranges::find(kinds_, id, &Kind::id);
   if (kind == kinds_.end()) kind = kinds_.insert(kind, {id, kept_.size(), 0, place});
   kind->last = place;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/language/place.h"
+#include "device/jobs/place.h"
 #include "device/rml1/language/warning.h"
 
 namespace axisgate::rml1 {
@@ -19,7 +19,7 @@ std::string_view name(Severity severity);
 struct Diagnostic {
   int number = 0;  // number of the guideline: 1, 2, 3, 11; 0 if it has none
   Severity severity = Severity::error;
-  Place place;
+  jobs::Place place;
   std::string_view section;  // section of the guideline: "2-5"; lives as long as the program
   std::string text;
   std::optional<Warning> warning{};  // kind of a warning
@@ -35,20 +35,20 @@ class Diagnostics {
   struct Omitted {
     Diagnostic first;
     std::uint64_t count = 0;
-    Place last;
+    jobs::Place last;
   };
 
   // `text` is called only for diagnostics that are kept, because a job may have millions.
   template <class Text>
-  void error(int number, const Place& place, std::string_view section, Text&& text) {
+  void error(int number, const jobs::Place& place, std::string_view section, Text&& text) {
     add(number, Severity::error, {}, place, section, text);
   }
   template <class Text>
-  void warn(Warning warning, const Place& place, std::string_view section, Text&& text) {
+  void warn(Warning warning, const jobs::Place& place, std::string_view section, Text&& text) {
     add(0, Severity::warning, warning, place, section, text);
   }
   template <class Text>
-  void note(const Place& place, std::string_view section, Text&& text) {
+  void note(const jobs::Place& place, std::string_view section, Text&& text) {
     add(0, Severity::note, {}, place, section, text);
   }
 
@@ -61,8 +61,8 @@ class Diagnostics {
 
  private:
   template <class Text>
-  void add(int number, Severity severity, std::optional<Warning> warning, const Place& place, std::string_view section,
-           Text&& text) {
+  void add(int number, Severity severity, std::optional<Warning> warning, const jobs::Place& place,
+           std::string_view section, Text&& text) {
     static constexpr char kKind = 0;
     ++counts_[static_cast<std::size_t>(severity)];
     if (keeps(&kKind, place)) kept_.push_back({number, severity, place, section, std::string(text()), warning});
@@ -72,10 +72,10 @@ class Diagnostics {
     const void* id;
     std::size_t first;  // index in kept_
     std::uint64_t count = 0;
-    Place last;
+    jobs::Place last;
   };
 
-  bool keeps(const void* id, const Place& place);
+  bool keeps(const void* id, const jobs::Place& place);
 
   std::vector<Diagnostic> kept_;
   std::vector<Kind> kinds_;

@@ -78,7 +78,7 @@ void Parser::control(char c) {
 }
 
 // Takes a byte that was kept back. It is in the same line.
-void Parser::take_at(const Place& place, char c) {
+void Parser::take_at(const jobs::Place& place, char c) {
   const auto here = offset_;
   offset_ = place.offset;
   take(c);
@@ -347,7 +347,7 @@ void Parser::end_list() {
     if (!all_in_error) emit();
     return;
   }
-  const Place first_left = instruction_.places[0];
+  const jobs::Place first_left = instruction_.places[0];
   instruction_.count = 0;
   if (!emitted_) emit();
   if (left == 0) return;

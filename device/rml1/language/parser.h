@@ -52,10 +52,10 @@ class Parser {
     axes,  // !ZE
   };
 
-  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // place of the next byte
+  jobs::Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // place of the next byte
   void control(char c);
   void take(char c);
-  void take_at(const Place& place, char c);
+  void take_at(const jobs::Place& place, char c);
   bool step(char c);
   bool search(char c);
   bool stray(char c);
@@ -92,13 +92,13 @@ class Parser {
   std::uint64_t commands_ = 0;
   State state_ = State::search;
   bool called_ = false;  // called by ^: a mode 2 name must follow
-  Place call_place_;
+  jobs::Place call_place_;
   std::uint64_t begin_ = 0;  // first byte of the command, including the ^ that calls it
   std::uint64_t executed_size_ = 0;
-  char first_ = 0;    // first letter of a name
-  Place name_place_;  // place of the name's first byte
+  char first_ = 0;          // first letter of a name
+  jobs::Place name_place_;  // place of the name's first byte
   std::string stray_;
-  Place number_place_, escape_place_;
+  jobs::Place number_place_, escape_place_;
   NumberReader number_;
   const Row* row_ = nullptr;
   Instruction instruction_;

@@ -25,7 +25,7 @@ void cut(Span& span, double from, double to, double lowest, double highest) {
   span.leave = std::min(span.leave, std::max(a, b));
 }
 
-Span inside(const Box& box, const Point& from, const Point& to) {
+Span inside(const Box& box, const jobs::Point& from, const jobs::Point& to) {
   Span span;
   cut(span, from.x, to.x, box.lowest.x, box.highest.x);
   cut(span, from.y, to.y, box.lowest.y, box.highest.y);
@@ -36,23 +36,23 @@ Span inside(const Box& box, const Point& from, const Point& to) {
 // are computed from different ends.
 constexpr double kSamePlace = 1e-6;  // steps
 
-bool same_plane(const Point& a, const Point& b) {
+bool same_plane(const jobs::Point& a, const jobs::Point& b) {
   return std::abs(a.x - b.x) < kSamePlace && std::abs(a.y - b.y) < kSamePlace;
 }
 
-Point at(const Point& from, const Point& to, double part) {
+jobs::Point at(const jobs::Point& from, const jobs::Point& to, double part) {
   if (part <= 0) return from;
   return part >= 1 ? to : from + (to - from) * part;
 }
 
 }  // namespace
 
-Point Box::held(const Point& p) const {
+jobs::Point Box::held(const jobs::Point& p) const {
   return {std::clamp(p.x, lowest.x, highest.x), std::clamp(p.y, lowest.y, highest.y),
           std::clamp(p.z, lowest.z, highest.z)};
 }
 
-void find_left_out(const Box& box, const Point& from, const Point& to, const Piecewise& left_out) {
+void find_left_out(const Box& box, const jobs::Point& from, const jobs::Point& to, const Piecewise& left_out) {
   const double bottom = box.lowest.z;
   if (box.over(from) && box.over(to) && from.z >= bottom && to.z >= bottom) return;
   Span span = inside(box, from, to);
@@ -62,8 +62,8 @@ void find_left_out(const Box& box, const Point& from, const Point& to, const Pie
   if (span.leave < 1) left_out(at(from, to, span.leave), to);
 }
 
-void Clipper::move_to(const Point& target, const Driven& driven) {
-  const Point from = commanded_;
+void Clipper::move_to(const jobs::Point& target, const Driven& driven) {
+  const jobs::Point from = commanded_;
   commanded_ = target;
   // The usual case.
   if (!outside_ && box_.over(target)) return follow(from, target, driven);
@@ -76,7 +76,7 @@ void Clipper::move_to(const Point& target, const Driven& driven) {
 
 // Follows a commanded path whose X and Y are inside all along. The tool is at the commanded place, except that bottom
 // and top limit its height.
-void Clipper::follow(const Point& from, const Point& to, const Driven& driven) {
+void Clipper::follow(const jobs::Point& from, const jobs::Point& to, const Driven& driven) {
   const double way = to.z - from.z;
   std::array<double, 2> crossings = {1, 1};
   if (way != 0) {
@@ -93,8 +93,8 @@ void Clipper::follow(const Point& from, const Point& to, const Driven& driven) {
 
 // Returns to the commanded path. "Raise all the way up once, move only the X and Y axes, then lower only the Z axis"
 // (C); if X and Y are the same, "move only the Z axis" (B 1).
-void Clipper::come_back(const Point& place, const Driven& driven) {
-  Point inner = box_.held(place);
+void Clipper::come_back(const jobs::Point& place, const Driven& driven) {
+  jobs::Point inner = box_.held(place);
   if (same_plane(inner, tool_)) {
     inner = {tool_.x, tool_.y, inner.z};
   } else {
@@ -104,7 +104,7 @@ void Clipper::come_back(const Point& place, const Driven& driven) {
   drive(Piece::descent, inner, driven);
 }
 
-void Clipper::drive_to(const Point& target, const Driven& driven) {
+void Clipper::drive_to(const jobs::Point& target, const Driven& driven) {
   drive(Piece::commanded, box_.held(target), driven);
   commanded_ = tool_;
   outside_ = false;
@@ -116,9 +116,9 @@ void Clipper::shift(double z, const Box& box) {
   tool_.z = std::clamp(tool_.z + z, box.lowest.z, box.highest.z);
 }
 
-void Clipper::drive(Piece piece, const Point& to, const Driven& driven) {
+void Clipper::drive(Piece piece, const jobs::Point& to, const Driven& driven) {
   if (to == tool_) return;
-  const Point from = tool_;
+  const jobs::Point from = tool_;
   tool_ = to;
   driven(piece, from, to);
 }

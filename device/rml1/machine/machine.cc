@@ -17,14 +17,14 @@ double snapped(double steps) {
   return std::abs(steps - whole) < 1e-6 ? whole : steps;
 }
 
-double Point::*part_of(char letter) {
+double jobs::Point::*part_of(char letter) {
   switch (letter) {
     case 'X':
-      return &Point::x;
+      return &jobs::Point::x;
     case 'Y':
-      return &Point::y;
+      return &jobs::Point::y;
     case 'Z':
-      return &Point::z;
+      return &jobs::Point::z;
     default:
       return nullptr;
   }
@@ -38,7 +38,7 @@ double Move::cutting_part() const {
   return higher > 0 ? lower / (lower - higher) : 1;
 }
 
-Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics,
+Machine::Machine(const Profile& profile, std::optional<jobs::Origin> origin, Diagnostics& diagnostics,
                  MachineListener& listener)
     : profile_(profile),
       origin_(origin),
@@ -129,7 +129,7 @@ void Machine::plot(const Instruction& instruction) {
   const bool lowered = keeps ? lowered_ : instruction.row->tool == Tool::lowered;
   if (instruction.first) take_tool(lowered, instruction);
   if (instruction.count == 0) return;
-  Point there = clipper_.commanded();
+  jobs::Point there = clipper_.commanded();
   there.x = aim(commanded_.x, instruction.values[0]);
   there.y = aim(commanded_.y, instruction.values[1]);
   move_to(there, lowered ? cutting_speed_ : profile_.speed.travel, instruction);
@@ -149,8 +149,8 @@ void Machine::feed(const Instruction& instruction) {
   if (instruction.count == 0) return;
   if (instruction.first) dwell(instruction);
   const double before = commanded_.z;
-  const Point there = {aim(commanded_.x, instruction.values[0]), aim(commanded_.y, instruction.values[1]),
-                       aim(commanded_.z, instruction.values[2])};
+  const jobs::Point there = {aim(commanded_.x, instruction.values[0]), aim(commanded_.y, instruction.values[1]),
+                             aim(commanded_.z, instruction.values[2])};
   if (commanded_.z > before) listener_.lifted(relative_ ? instruction.values[2] : commanded_.z, instruction);
   move_to(there, z_speed_, instruction);
 }
@@ -158,7 +158,7 @@ void Machine::feed(const Instruction& instruction) {
 // Executes !ZE. "Axes for which nothing is specified keep their present location."
 void Machine::extension(const Instruction& instruction) {
   const AxisTarget* rotation = nullptr;
-  Point there = clipper_.commanded();
+  jobs::Point there = clipper_.commanded();
   bool moves = false;
   for (const AxisTarget& axis : instruction.axes) {
     if (const auto linear = profile_.axes.find(axis.letter) == std::string::npos ? nullptr : part_of(axis.letter)) {
@@ -272,7 +272,7 @@ bool Machine::reachable(double height, const Instruction& instruction) {
   const double lowest = travel_ + (relative_ ? z0_unsure_ : 0);
   if (below_top >= 0 && below_top <= lowest) return true;
   const double bottom = profile_.top - profile_.up * travel_;
-  const Place& place = instruction.count > 0 ? instruction.places[0] : instruction.place;
+  const jobs::Place& place = instruction.count > 0 ? instruction.places[0] : instruction.place;
   diagnostics_.error(3, place, instruction.row->section, [&] {
     return fmt::format("the machine coordinate {} is outside of Z's travel, {} to {}", height,
                        std::min(profile_.top, bottom), std::max(profile_.top, bottom));
@@ -317,7 +317,7 @@ void Machine::pause(const Instruction& instruction) {
 // Executes ESC.K, which "ends operation of the command now being executed" (4-2): the tool's present place becomes the
 // commanded one.
 void Machine::quit() {
-  clipper_.drive_to(tool(), [](Piece, const Point&, const Point&) {});
+  clipper_.drive_to(tool(), [](Piece, const jobs::Point&, const jobs::Point&) {});
   commanded_ = tool();
 }
 
@@ -328,17 +328,17 @@ double Machine::aim(double& commanded, double value) const {
 }
 
 void Machine::move_height(double z, const Instruction& instruction) {
-  Point there = clipper_.commanded();
+  jobs::Point there = clipper_.commanded();
   there.z = z;
   move_to(there, z_speed_, instruction, true);
 }
 
-void Machine::move_to(const Point& there, double speed, const Instruction& instruction, bool height_alone) {
+void Machine::move_to(const jobs::Point& there, double speed, const Instruction& instruction, bool height_alone) {
   start_spindle(instruction);
   listener_.commanded(clipper_.commanded(), there, height_alone, instruction);
   const bool holds = profile_.holds_flat_commands && instruction.row->operation == Operation::plot && !height_alone;
-  const Point held = box().held(there);
-  clipper_.move_to(holds ? Point{held.x, held.y, there.z} : there, driven(speed, instruction));
+  const jobs::Point held = box().held(there);
+  clipper_.move_to(holds ? jobs::Point{held.x, held.y, there.z} : there, driven(speed, instruction));
 }
 
 void Machine::dwell(const Instruction& instruction) {
@@ -353,10 +353,12 @@ void Machine::start_spindle(const Instruction& instruction) {
 }
 
 Clipper::Driven Machine::driven(double speed, const Instruction& by) {
-  return [this, speed, &by](Piece piece, const Point& from, const Point& to) { drive(piece, from, to, speed, by); };
+  return [this, speed, &by](Piece piece, const jobs::Point& from, const jobs::Point& to) {
+    drive(piece, from, to, speed, by);
+  };
 }
 
-void Machine::drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by) {
+void Machine::drive(Piece piece, const jobs::Point& from, const jobs::Point& to, double speed, const Instruction& by) {
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
   listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->operation == Operation::plot, turning_,
@@ -364,7 +366,7 @@ void Machine::drive(Piece piece, const Point& from, const Point& to, double spee
 }
 
 // Limits a speed to what each axis can reach.
-double Machine::possible(double speed, const Point& way) const {
+double Machine::possible(double speed, const jobs::Point& way) const {
   const double all = length(way), plane = std::sqrt(way.x * way.x + way.y * way.y), height = std::abs(way.z);
   const double fastest = std::max(profile_.speed.travel, profile_.speed.cutting_maximum);
   if (plane > 0) speed = std::min(speed, fastest * all / plane);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "device/jobs/origin.h"
 #include "device/rml1/language/diagnostic.h"
 #include "device/rml1/language/instruction.h"
 #include "device/rml1/language/parser.h"
@@ -13,21 +14,16 @@
 
 namespace axisgate::rml1 {
 
-// Position of the workpiece in mm: X and Y from the machine's home corner, Z as the distance of Z0 below the top.
-struct Origin {
-  double x = 0, y = 0, z = 0;
-};
-
 // A straight piece of the real path.
 struct Move {
-  Point from, to;                         // steps, in workpiece coordinates; never the same
+  jobs::Point from, to;                   // steps, in workpiece coordinates; never the same
   double speed = 0;                       // mm/s, as commanded, limited to the highest speeds of the axes
   bool lowered = false;                   // moved by a command that keeps the tool lowered
   bool turning = false;                   // the spindle turns
   std::uint64_t end = 0;                  // number of bytes of the job that must arrive before the move
   Operation operation = Operation::plot;  // operation of the command
-  Place place;                            // place of the command's first byte
-  Place begin;                            // place of the first byte of the command, or of this set of its coordinates
+  jobs::Place place;                      // place of the command's first byte
+  jobs::Place begin;                      // place of the first byte of the command, or of this set of its coordinates
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   bool lifts() const { return from.x == to.x && from.y == to.y && to.z > from.z; }
@@ -41,7 +37,7 @@ class MoveListener {
   virtual ~MoveListener() = default;
   virtual void moved(const Move& move) = 0;
   // Reports a straight commanded piece that clipping leaves out. Steps, in workpiece coordinates.
-  virtual void left_out(const Point& /*from*/, const Point& /*to*/) {}
+  virtual void left_out(const jobs::Point& /*from*/, const jobs::Point& /*to*/) {}
 };
 
 enum class Wait : std::uint8_t { spin_up, dwell, turn };  // turn: of an axis of rotation, while nothing else moves
@@ -52,20 +48,22 @@ class MachineListener : public MoveListener {
   virtual void waited(Wait what, double seconds, std::uint64_t end) = 0;
   // Reports a commanded straight path, before clipping; with `height_alone` it is only a height. Steps, in workpiece
   // coordinates.
-  virtual void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) = 0;
+  virtual void commanded(const jobs::Point& from, const jobs::Point& target, bool height_alone,
+                         const Instruction& by) = 0;
   // Reports that a command lifted the tool by `steps`, or to that height above Z0.
   virtual void lifted(double steps, const Instruction& by) = 0;
 };
 
 class Machine : public ParserListener {
  public:
-  Machine(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics, MachineListener& listener);
+  Machine(const Profile& profile, std::optional<jobs::Origin> origin, Diagnostics& diagnostics,
+          MachineListener& listener);
 
   void execute(const Instruction& instruction) override;
   void quit() override;
 
-  const Point& tool() const { return clipper_.tool(); }
-  const Point& commanded() const { return commanded_; }
+  const jobs::Point& tool() const { return clipper_.tool(); }
+  const jobs::Point& commanded() const { return commanded_; }
   const Box& box() const { return clipper_.box(); }
   bool tool_lowered() const { return lowered_; }
   bool relative() const { return relative_; }
@@ -73,7 +71,7 @@ class Machine : public ParserListener {
   bool spindle_permitted() const { return permitted_; }
   double z1() const { return z1_; }
   // Place of the first command that lowers the tool to a Z1 that the job has not set; nullopt if there is none.
-  const std::optional<Place>& lowered_by_default() const { return lowered_by_default_; }
+  const std::optional<jobs::Place>& lowered_by_default() const { return lowered_by_default_; }
   double z2() const { return z2_.value_or(box().highest.z); }
   double cutting_speed() const { return cutting_speed_; }  // mm/s
   double z_speed() const { return z_speed_; }              // mm/s
@@ -102,18 +100,18 @@ class Machine : public ParserListener {
   bool reachable(double height, const Instruction& instruction);
   double target(double value, double present) const { return relative_ ? present + value : value; }
   double aim(double& commanded, double value) const;
-  void move_to(const Point& target, double speed, const Instruction& instruction, bool height_alone = false);
+  void move_to(const jobs::Point& target, double speed, const Instruction& instruction, bool height_alone = false);
   void move_height(double z, const Instruction& instruction);
   void dwell(const Instruction& instruction);
   void start_spindle(const Instruction& instruction);
   Clipper::Driven driven(double speed, const Instruction& instruction);
-  void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by);
-  double possible(double speed, const Point& way) const;
+  void drive(Piece piece, const jobs::Point& from, const jobs::Point& to, double speed, const Instruction& by);
+  double possible(double speed, const jobs::Point& way) const;
   double height_of(double z) const { return z0_ + profile_.up * z; }                  // machine coordinate
   double above_surface(double height) const { return profile_.up * (height - z0_); }  // `height`: machine coordinate
 
   const Profile& profile_;
-  const std::optional<Origin> origin_;
+  const std::optional<jobs::Origin> origin_;
   Diagnostics& diagnostics_;
   MachineListener& listener_;
 
@@ -121,11 +119,11 @@ class Machine : public ParserListener {
   double z0_ = 0;         // machine coordinate, in steps, of the lowest place where Z0 may lie
   double z0_unsure_ = 0;  // number of steps by which Z0 may lie higher
   Clipper clipper_;
-  Point commanded_;  // not rounded, because the sums of PR are not rounded either
+  jobs::Point commanded_;  // not rounded, because the sums of PR are not rounded either
   bool relative_ = false, lowered_ = false;
   double z1_ = 0;
   bool z1_set_ = false;
-  std::optional<Place> lowered_by_default_;
+  std::optional<jobs::Place> lowered_by_default_;
   std::optional<double> z2_;  // nullopt: the top
   double cutting_speed_ = 0, z_speed_ = 0;
   double dwell_s_ = 0;

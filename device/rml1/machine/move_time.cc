@@ -15,7 +15,7 @@ double rest_to_rest(double mm, double speed, double acceleration) {
 
 // Returns the length that clipping cannot leave out, in mm.
 double certain_way(const Move& move, double step_mm) {
-  Point way = move.to - move.from;
+  jobs::Point way = move.to - move.from;
   way.z = std::min(move.to.z, 0.0) - std::min(move.from.z, 0.0);
   return length(way) * step_mm;
 }

@@ -15,7 +15,9 @@ constexpr double kInset = 180;
 constexpr double kTick = 4, kTicksApart = 50;
 constexpr double kFlat = 60, kStretched = 110;  // a view of Z that is lower than kFlat is stretched up to kStretched
 
-const Reach& reach(const Bounds& bounds, int axis) { return axis == 0 ? bounds.x : axis == 1 ? bounds.y : bounds.z; }
+const jobs::Reach& reach(const jobs::Bounds& bounds, int axis) {
+  return axis == 0 ? bounds.x : axis == 1 ? bounds.y : bounds.z;
+}
 
 // Returns the largest of 1, 2 and 5 times a power of ten that is at most `most`.
 double round_below(double most) {
@@ -62,8 +64,8 @@ class Layout {
   };
 
   void add_view(std::size_t index, const std::string& title, Axes axes, double left, double top) {
-    const Reach& across = reach(extents_.shown, axes.across);
-    const Reach& up = reach(extents_.shown, axes.up);
+    const jobs::Reach& across = reach(extents_.shown, axes.across);
+    const jobs::Reach& up = reach(extents_.shown, axes.up);
     Picture::View& view = picture_.views[index];
     view.across = axes.across, view.up = axes.up, view.scale = scale_;
     view.stretch = view.from_above() ? 1 : stretch_;
@@ -77,15 +79,15 @@ class Layout {
     add_ticks(view, across, up);
   }
 
-  static Picture::Rectangle box(const Picture::View& view, Picture::Rectangle::Kind kind, const Bounds& bounds) {
-    const Reach& across = reach(bounds, view.across);
-    const Reach& up = reach(bounds, view.up);
+  static Picture::Rectangle box(const Picture::View& view, Picture::Rectangle::Kind kind, const jobs::Bounds& bounds) {
+    const jobs::Reach& across = reach(bounds, view.across);
+    const jobs::Reach& up = reach(bounds, view.up);
     return {kind, view.x + across.lowest * view.scale_across(), view.y - up.highest * view.scale_up(),
             across.size() * view.scale_across(), up.size() * view.scale_up()};
   }
 
   // Adds ticks in mm along the lower and the left side.
-  void add_ticks(const Picture::View& view, const Reach& across, const Reach& up) {
+  void add_ticks(const Picture::View& view, const jobs::Reach& across, const jobs::Reach& up) {
     const Picture::Rectangle& frame = view.frame;
     const double bottom = frame.y + frame.height;
     each_tick(across, view.scale_across(), [&](double steps, const std::string& text) {
@@ -101,7 +103,7 @@ class Layout {
   }
 
   template <class Tick>
-  void each_tick(const Reach& shown, double scale, Tick tick) const {
+  void each_tick(const jobs::Reach& shown, double scale, Tick tick) const {
     const double apart = round_above(std::min(kTicksApart, shown.size() * scale / 4) / scale * step_mm_);
     const double first = std::ceil(shown.lowest * step_mm_ / apart - 1e-9);
     const double last = std::floor(shown.highest * step_mm_ / apart + 1e-9);
@@ -120,8 +122,8 @@ class Layout {
 
   // Adds an overview of the work area, with the frame of the view from above.
   void add_inset(double left, double top) {
-    const Bounds& area = *extents_.area;
-    Bounds all = area;
+    const jobs::Bounds& area = *extents_.area;
+    jobs::Bounds all = area;
     all.take({extents_.shown.x.lowest, extents_.shown.y.lowest, 0});
     all.take({extents_.shown.x.highest, extents_.shown.y.highest, 0});
     Picture::View inset;

@@ -17,18 +17,18 @@ constexpr double kPad = 0.04;     // margin, as a fraction of the extent
 constexpr std::size_t kReports = 8;
 constexpr double kAssumedToolMm = 2;  // diameter for reliefs, the same as in the check of passes
 
-Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
+jobs::Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
-Bounds stock_bounds(const Stock& stock, const Profile& profile) {
-  Bounds bounds;
+jobs::Bounds stock_bounds(const jobs::Stock& stock, const Profile& profile) {
+  jobs::Bounds bounds;
   bounds.take({0, 0, -profile.steps(stock.z)});
   bounds.take({profile.steps(stock.x), profile.steps(stock.y), 0});
   return bounds;
 }
 
 // Returns the bounds of the cuts; with `commanded`, also of cuts that clipping leaves out.
-Bounds cut_bounds(const Strokes& strokes, bool commanded) {
-  Bounds bounds;
+jobs::Bounds cut_bounds(const Strokes& strokes, bool commanded) {
+  jobs::Bounds bounds;
   for (const Strokes::Stroke& stroke : strokes.all()) {
     const bool left_out = stroke.kind == Strokes::Kind::left_out && (stroke.from[2] < 0 || stroke.to[2] < 0);
     if (stroke.kind != Strokes::Kind::cut && !(commanded && left_out)) continue;
@@ -40,18 +40,18 @@ Bounds cut_bounds(const Strokes& strokes, bool commanded) {
 
 // Adds the travel. Its height counts only below the top, and only as far above Z0 as the cuts lie below it: people look
 // at the cut, and a lift may be many times as high.
-void take_travel(Bounds& bounds, const Strokes& strokes, double top, bool plane) {
+void take_travel(jobs::Bounds& bounds, const Strokes& strokes, double top, bool plane) {
   const double highest = bounds.z.any ? std::max(0.0, -bounds.z.lowest) : top;
   for (const Strokes::Stroke& stroke : strokes.all()) {
     if (stroke.kind != Strokes::Kind::travel) continue;
-    for (const Point& p : {wide(stroke.from), wide(stroke.to)}) {
+    for (const jobs::Point& p : {wide(stroke.from), wide(stroke.to)}) {
       if (plane) bounds.x.take(p.x), bounds.y.take(p.y);
       if (p.z < std::floor(top)) bounds.z.take(std::min(p.z, highest));
     }
   }
 }
 
-void pad(Reach& reach, double least) {
+void pad(jobs::Reach& reach, double least) {
   if (!reach.any) reach.take(0);
   const double middle = (reach.lowest + reach.highest) / 2;
   const double half = std::max(least, reach.size() * (1 + 2 * kPad)) / 2;
@@ -59,7 +59,7 @@ void pad(Reach& reach, double least) {
   reach.take(middle + half);
 }
 
-Extents extents(const Box& box, const Profile& profile, std::optional<Stock> stock, bool origin_known,
+Extents extents(const Box& box, const Profile& profile, std::optional<jobs::Stock> stock, bool origin_known,
                 const Strokes& strokes, double radius) {
   Extents all;
   all.shown = cut_bounds(strokes, true);
@@ -71,8 +71,8 @@ Extents extents(const Box& box, const Profile& profile, std::optional<Stock> sto
   all.shown.take({0, 0, 0});  // a person clamps the workpiece by the work origin
   if (stock) {
     all.stock = stock_bounds(*stock, profile);
-    for (const Point& p : {Point{all.stock->x.lowest, all.stock->y.lowest, all.stock->z.lowest},
-                           Point{all.stock->x.highest, all.stock->y.highest, 0}}) {
+    for (const jobs::Point& p : {jobs::Point{all.stock->x.lowest, all.stock->y.lowest, all.stock->z.lowest},
+                                 jobs::Point{all.stock->x.highest, all.stock->y.highest, 0}}) {
       all.shown.take(p);
     }
   }
@@ -87,7 +87,7 @@ Extents extents(const Box& box, const Profile& profile, std::optional<Stock> sto
   return all;
 }
 
-std::string size_text(std::string_view axis, const Reach& reach, double step_mm) {
+std::string size_text(std::string_view axis, const jobs::Reach& reach, double step_mm) {
   return fmt::format("{} {:.2f} to {:.2f} mm ({:.2f} mm)", axis, reach.lowest * step_mm, reach.highest * step_mm,
                      reach.size() * step_mm);
 }
@@ -103,10 +103,10 @@ std::string lengths_text(const Strokes& strokes, Strokes::Done done, double step
   return fmt::format("{:.0f} mm driven, {:.0f} mm cutting", driven, cutting);
 }
 
-bool any_executed(const Strokes& strokes) { return strokes.executed().most != Place(); }
+bool any_executed(const Strokes& strokes) { return strokes.executed().most != jobs::Place(); }
 
 void add_remains(std::vector<std::string>& lines, const Strokes& strokes, double step_mm) {
-  const auto add = [&](std::string_view what, const Place& end, Strokes::Done done) {
+  const auto add = [&](std::string_view what, const jobs::Place& end, Strokes::Done done) {
     lines.push_back(fmt::format("{} up to line {}, column {}: {}", what, end.line, end.column,
                                 lengths_text(strokes, done, step_mm)));
   };
@@ -131,10 +131,10 @@ std::string work_text(const Check& check) {
 }
 
 std::string speed_text(const Parts& parts, const Strokes& strokes) {
-  Reach rpm;
+  jobs::Reach rpm;
   std::optional<double> not_reached;
   for (const Check* part : parts) {
-    const Reach& one = part->summary().rpm;
+    const jobs::Reach& one = part->summary().rpm;
     if (one.any) rpm.take(one.lowest), rpm.take(one.highest);
     if (part->speed_not_reached()) not_reached = std::max(not_reached.value_or(0), *part->speed_not_reached());
   }
@@ -154,7 +154,7 @@ std::string width_text(const Picture& picture, double step_mm) {
 std::vector<std::string> facts(const Parts& parts, const Profile& profile, const Picture& picture, bool stock,
                                bool area) {
   const Strokes& strokes = *picture.strokes;
-  const Bounds cuts = cut_bounds(strokes, false);
+  const jobs::Bounds cuts = cut_bounds(strokes, false);
   std::vector<std::string> lines;
   for (std::size_t index = 0; index < parts.size(); ++index) {
     lines.push_back(part_text(parts, index) + work_text(*parts[index]));
@@ -259,7 +259,7 @@ double drawn_width(const Picture& picture, const Picture::View& view, std::size_
 }
 
 Picture make_picture(const std::string& title, const std::vector<const Check*>& parts, const Profile& profile,
-                     std::optional<Stock> stock, bool origin_known, const Strokes& strokes) {
+                     std::optional<jobs::Stock> stock, bool origin_known, const Strokes& strokes) {
   const Shades shades(strokes, profile.step_mm);
   const bool relief = shades.are_ranges() && !any_executed(strokes);
   const std::vector<double> diameters = diameters_of(parts, profile, strokes, relief);

@@ -58,7 +58,7 @@ struct Picture {
 // `parts`: the checks of the job's files, at least one, each with the same stock and origin. `strokes`: strokes of all
 // parts, which must outlive the picture.
 Picture make_picture(const std::string& title, const std::vector<const Check*>& parts, const Profile& profile,
-                     std::optional<Stock> stock, bool origin_known, const Strokes& strokes);
+                     std::optional<jobs::Stock> stock, bool origin_known, const Strokes& strokes);
 
 // Reports whether the view shows the stroke as part of the surface that the cuts leave.
 bool is_in_relief(const Picture& picture, const Picture::View& view, const Strokes::Stroke& stroke);

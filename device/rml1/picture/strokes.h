@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "device/rml1/machine/bounds.h"
+#include "device/jobs/bounds.h"
 #include "device/rml1/machine/machine.h"
 
 namespace axisgate::rml1 {
@@ -26,28 +26,28 @@ class Strokes : public MoveListener {
 
   // `executed`: range within which the executed part of the job ends, in lines and columns. By default nothing was
   // executed.
-  explicit Strokes(const PlaceRange& executed = {}) : executed_(executed) {}
+  explicit Strokes(const jobs::PlaceRange& executed = {}) : executed_(executed) {}
 
   // Begins the next part of the job; the following moves belong to it.
   void begin_part() { ++part_; }
   void moved(const Move& move) override;
-  void left_out(const Point& from, const Point& to) override;
+  void left_out(const jobs::Point& from, const jobs::Point& to) override;
 
   const std::vector<Stroke>& all() const { return all_; }
   std::size_t parts() const { return part_ + 1U; }
-  const PlaceRange& executed() const { return executed_; }
+  const jobs::PlaceRange& executed() const { return executed_; }
   // Reports whether this stroke is drilled: straight down, and straight up again.
   bool is_hole(std::size_t index) const;
-  const Reach& feeds() const { return feeds_; }  // mm/s, of cuts along or down
+  const jobs::Reach& feeds() const { return feeds_; }  // mm/s, of cuts along or down
   bool any_left_out() const { return any_left_out_; }
 
  private:
-  void add(const Point& from, const Point& to, Kind kind, Done done);
-  Done done(const Place& begin) const;
+  void add(const jobs::Point& from, const jobs::Point& to, Kind kind, Done done);
+  Done done(const jobs::Place& begin) const;
 
-  const PlaceRange executed_;
+  const jobs::PlaceRange executed_;
   std::vector<Stroke> all_;
-  Reach feeds_;
+  jobs::Reach feeds_;
   bool any_left_out_ = false;
   std::uint8_t part_ = 0;
 };
