@@ -3,7 +3,7 @@
 #include <array>
 
 #include "device/core/transitions.h"
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
 
@@ -66,7 +66,8 @@ void Abort::advance(TimePoint now) {
     return;
   }
   // XOFF shows only as bytes that do not leave.
-  if (guarded(MillGuard::abort_is_not_held) && now - written_ >= kHeldBeforeIgnored) line_.ignore_flow_control(true);
+  if (guarded(jobs::MillGuard::abort_is_not_held) && now - written_ >= kHeldBeforeIgnored)
+    line_.ignore_flow_control(true);
 }
 
 }  // namespace axisgate::rml1

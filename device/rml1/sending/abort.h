@@ -8,8 +8,8 @@
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
 #include "device/core/violations.h"
+#include "device/jobs/send_settings.h"
 #include "device/rml1/machine/profile.h"
-#include "device/rml1/sending/settings.h"
 
 namespace axisgate::rml1 {
 
@@ -41,7 +41,7 @@ std::optional<AbortPhase> next(AbortPhase phase, AbortEvent event);
 class Abort {
  public:
   // The referenced objects must outlive this one.
-  Abort(const Profile& profile, const SendSettings& settings, FlowLink& line, Violations& violations)
+  Abort(const Profile& profile, const jobs::SendSettings& settings, FlowLink& line, Violations& violations)
       : profile_(profile), settings_(settings), line_(line), violations_(violations) {}
 
   // Writes the abort to the line, which is open. `rests`: the spindle may be stationary when it reaches the mill.
@@ -66,7 +66,7 @@ class Abort {
   void note_arrival(TimePoint now);
 
   const Profile& profile_;
-  const SendSettings& settings_;
+  const jobs::SendSettings& settings_;
   FlowLink& line_;
   Violations& violations_;
   AbortPhase phase_ = AbortPhase::none;

@@ -14,8 +14,8 @@ class Cutter {
  public:
   Cutter(std::string_view job, std::size_t window);
 
-  // The next write: a command, and of the delimiters behind it what is within `window`. A command that is longer is cut
-  // behind the comma of a complete set of coordinates, where it has one. At the end of the job both are its size.
+  // The next write: a command, and the delimiters after it that are within `window`. A command that is longer is cut
+  // after the comma of a complete set of coordinates, if it has one. At the end of the job both are its size.
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return end_; }
   void next();

@@ -31,8 +31,9 @@ std::uint64_t end_of(const Timeline& timeline) { return timeline.steps().empty()
 
 }  // namespace
 
-JobTimes::JobTimes(std::string_view job, const Timeline& timeline, const SendSettings& settings, std::size_t window) {
-  if (settings.streaming == Streaming::full) {
+JobTimes::JobTimes(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
+                   std::size_t window) {
+  if (settings.streaming == jobs::Streaming::full) {
     add_full(job, timeline, settings, window);
   } else {
     add_paced(job, timeline, settings, window);
@@ -40,7 +41,7 @@ JobTimes::JobTimes(std::string_view job, const Timeline& timeline, const SendSet
 }
 
 // Every mill is sent its bytes as the slowest has room for them, and waits for them.
-void JobTimes::add_paced(std::string_view job, const Timeline& timeline, const SendSettings& settings,
+void JobTimes::add_paced(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
                          std::size_t window) {
   Delivery slowest(timeline, &Step::slowest_s, settings.slack, settings.baud, window);
   Pace fast(timeline, &Step::least_s, 1), slow(timeline, &Step::most_s, 1);
@@ -53,7 +54,7 @@ void JobTimes::add_paced(std::string_view job, const Timeline& timeline, const S
 }
 
 // A mill that stops its line has room for more only when a part of its buffer is empty.
-void JobTimes::add_full(std::string_view job, const Timeline& timeline, const SendSettings& settings,
+void JobTimes::add_full(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
                         std::size_t window) {
   Delivery fast(timeline, &Step::least_s, 1, settings.baud, std::nullopt);
   Delivery slow(timeline, &Step::most_s, 1, settings.baud, settings.buffer / 2);
@@ -69,7 +70,7 @@ JobTimes::Moment JobTimes::at(std::uint64_t executed) const {
   return next == moments_.begin() ? Moment{} : *std::prev(next);
 }
 
-TimeRange JobTimes::left(std::uint64_t executed_least, std::uint64_t executed_most) const {
+jobs::TimeRange JobTimes::left(std::uint64_t executed_least, std::uint64_t executed_most) const {
   if (moments_.empty()) return {};
   const Moment& end = moments_.back();
   return {from_seconds(end.least - at(executed_most).least), from_seconds(end.most - at(executed_least).most)};

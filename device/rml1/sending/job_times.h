@@ -8,31 +8,21 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/sending/settings.h"
+#include "device/jobs/send_settings.h"
+#include "device/jobs/time_range.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
-
-struct TimeRange {
-  Duration least{}, most{};
-
-  friend bool operator==(const TimeRange&, const TimeRange&) = default;
-  TimeRange& operator+=(const TimeRange& other) {
-    least += other.least;
-    most += other.most;
-    return *this;
-  }
-};
 
 // Immutable. The time begins with the first byte, and ends with the last movement.
 class JobTimes {
  public:
   // `window`: SendPlan::window.
-  JobTimes(std::string_view job, const Timeline& timeline, const SendSettings& settings, std::size_t window);
+  JobTimes(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings, std::size_t window);
 
-  TimeRange whole() const { return left(0, 0); }
+  jobs::TimeRange whole() const { return left(0, 0); }
   // Returns the time that is left when so many bytes of the job have been executed, at least and at most.
-  TimeRange left(std::uint64_t executed_least, std::uint64_t executed_most) const;
+  jobs::TimeRange left(std::uint64_t executed_least, std::uint64_t executed_most) const;
 
  private:
   // A command, and when it has been executed: seconds.
@@ -41,8 +31,9 @@ class JobTimes {
     float least = 0, most = 0;
   };
 
-  void add_paced(std::string_view job, const Timeline& timeline, const SendSettings& settings, std::size_t window);
-  void add_full(std::string_view job, const Timeline& timeline, const SendSettings& settings, std::size_t window);
+  void add_paced(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
+                 std::size_t window);
+  void add_full(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings, std::size_t window);
   Moment at(std::uint64_t executed) const;
 
   std::vector<Moment> moments_;

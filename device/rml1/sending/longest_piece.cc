@@ -4,7 +4,7 @@ namespace axisgate::rml1 {
 
 void LongestPiece::take(std::string_view bytes) {
   for (const char c : bytes) {
-    next_ = behind(next_, c);
+    next_ = after(next_, c);
     ++piece_.bytes;
     if (piece_.bytes > longest_.bytes) longest_ = piece_;
     if (places_.take(c) != CutPlaces::Cut::no) piece_ = {next_, 0};

@@ -19,17 +19,17 @@ void Pace::arrived(std::uint64_t through, TimePoint at) {
 // A command with several steps has been executed when the last has ended.
 void Pace::add(std::uint64_t end, TimePoint arrived, Duration takes) {
   free_ = std::max(free_, arrived) + takes;
-  if (under_way_.empty() || under_way_.back().end != end) under_way_.push_back({end, arrived, {}, {}});
-  under_way_.back().takes += takes;
-  under_way_.back().at = free_;
+  if (unexecuted_.empty() || unexecuted_.back().end != end) unexecuted_.push_back({end, arrived, {}, {}});
+  unexecuted_.back().takes += takes;
+  unexecuted_.back().at = free_;
 }
 
-void Pace::not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now) {
-  const auto first = std::ranges::upper_bound(under_way_, behind, {}, &Ending::end);
-  if (first == under_way_.end()) return;
-  TimePoint free = first == under_way_.begin() ? TimePoint{} : std::prev(first)->at;
-  for (auto one = first; one != under_way_.end(); ++one) {
-    one->arrived = std::max(one->arrived, now + static_cast<Duration::rep>(one->end - behind) * a_byte);
+void Pace::not_arrived(std::uint64_t arrived_bytes, Duration a_byte, TimePoint now) {
+  const auto first = std::ranges::upper_bound(unexecuted_, arrived_bytes, {}, &Ending::end);
+  if (first == unexecuted_.end()) return;
+  TimePoint free = first == unexecuted_.begin() ? TimePoint{} : std::prev(first)->at;
+  for (auto one = first; one != unexecuted_.end(); ++one) {
+    one->arrived = std::max(one->arrived, now + static_cast<Duration::rep>(one->end - arrived_bytes) * a_byte);
     one->at = free = std::max({one->at, free + one->takes, one->arrived + one->takes});
   }
   free_ = free;
@@ -37,28 +37,28 @@ void Pace::not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now) {
 
 void Pace::has_read(std::uint64_t bytes, TimePoint now) {
   executed(now);
-  const auto unread = std::ranges::upper_bound(under_way_, bytes, {}, &Ending::end);
-  if (unread == under_way_.begin()) return;
-  for (auto before = unread - under_way_.begin(); before > 1; --before) {
-    executed_ = under_way_.front().end;
-    under_way_.pop_front();
+  const auto unread = std::ranges::upper_bound(unexecuted_, bytes, {}, &Ending::end);
+  if (unread == unexecuted_.begin()) return;
+  for (auto before = unread - unexecuted_.begin(); before > 1; --before) {
+    executed_ = unexecuted_.front().end;
+    unexecuted_.pop_front();
   }
   free_ = now;
-  for (Ending& one : under_way_) one.at = free_ = std::min(one.at, std::max(free_, one.arrived) + one.takes);
+  for (Ending& one : unexecuted_) one.at = free_ = std::min(one.at, std::max(free_, one.arrived) + one.takes);
 }
 
 std::uint64_t Pace::executed(TimePoint now) {
-  while (!under_way_.empty() && under_way_.front().at <= now) {
-    executed_ = under_way_.front().end;
-    under_way_.pop_front();
+  while (!unexecuted_.empty() && unexecuted_.front().at <= now) {
+    executed_ = unexecuted_.front().end;
+    unexecuted_.pop_front();
   }
   return executed_;
 }
 
 TimePoint Pace::when(std::uint64_t bytes) const {
   if (bytes <= executed_) return {};
-  const auto found = std::ranges::lower_bound(under_way_, bytes, {}, &Ending::end);
-  return found == under_way_.end() ? free_ : found->at;
+  const auto found = std::ranges::lower_bound(unexecuted_, bytes, {}, &Ending::end);
+  return found == unexecuted_.end() ? free_ : found->at;
 }
 
 }  // namespace axisgate::rml1

@@ -17,9 +17,9 @@ class Pace {
 
   // Notes that the job's bytes up to `through` arrive at that time. Both ascend.
   void arrived(std::uint64_t through, TimePoint at);
-  // Notes that the bytes after the first `behind` ones have not arrived by `now`: each of them takes at least `a_byte`
-  // from then on. `now` ascends.
-  void not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now);
+  // Notes that the bytes after the first `arrived_bytes` ones have not arrived by `now`: each of them takes at least
+  // `a_byte` from then on. `now` ascends.
+  void not_arrived(std::uint64_t arrived_bytes, Duration a_byte, TimePoint now);
   // Notes that so many bytes have left the mill's buffer by now, whatever its speed is: their last command may be in
   // progress, and those before it have been executed. `now` ascends.
   void has_read(std::uint64_t bytes, TimePoint now);
@@ -45,7 +45,7 @@ class Pace {
   std::size_t next_ = 0;  // step
   TimePoint free_{};      // when the last step that has arrived ends
   std::uint64_t executed_ = 0;
-  std::deque<Ending> under_way_;  // in their order
+  std::deque<Ending> unexecuted_;  // in their order
 };
 
 }  // namespace axisgate::rml1

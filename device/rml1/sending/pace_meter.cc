@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kWithin = 1.2;  // the high end of a range that says something, in low ends
 
-double width(const MeasuredPace& pace) { return pace.most / pace.least; }
+double width(const jobs::MeasuredPace& pace) { return pace.most / pace.least; }
 
 }  // namespace
 
-SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured) {
+jobs::SendSettings with_pace(jobs::SendSettings settings, const std::optional<jobs::MeasuredPace>& measured) {
   if (settings.slack_as_measured && measured) {
     settings.slack = std::max(measured->most * kUnsteady, 1.0);
   }
@@ -34,7 +34,7 @@ void PaceMeter::interrupted() {
   last_.reset();
 }
 
-std::optional<MeasuredPace> PaceMeter::pace() const {
+std::optional<jobs::MeasuredPace> PaceMeter::pace() const {
   const auto now = between_stops();
   if (!now || width(*now) > kWithin) return before_;
   return before_ && width(*before_) <= width(*now) ? before_ : now;
@@ -42,13 +42,13 @@ std::optional<MeasuredPace> PaceMeter::pace() const {
 
 // The steps that were certainly executed between the two took no longer than that time, and all that may have been took
 // no less.
-std::optional<MeasuredPace> PaceMeter::between_stops() const {
+std::optional<jobs::MeasuredPace> PaceMeter::between_stops() const {
   if (!first_) return std::nullopt;
   const double seconds = std::chrono::duration<double>(last_->at - first_->at).count();
   const double certain = slowest_s(first_->left + 1, begun(last_->left));
   const double possible = slowest_s(begun(first_->left), last_->left + 1);
   if (seconds <= 0 || certain <= 0) return std::nullopt;
-  return MeasuredPace{seconds / possible, seconds / certain};
+  return jobs::MeasuredPace{seconds / possible, seconds / certain};
 }
 
 // The end of the last command that the mill has certainly begun. Those before it are executed.

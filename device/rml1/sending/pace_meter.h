@@ -7,23 +7,17 @@
 #include <optional>
 
 #include "device/core/time.h"
-#include "device/rml1/sending/settings.h"
+#include "device/jobs/measured_pace.h"
+#include "device/jobs/send_settings.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
-
-// The mill takes so many times as long as the slowest of its profile: a range.
-struct MeasuredPace {
-  double least = 0, most = 0;
-
-  friend bool operator==(const MeasuredPace&, const MeasuredPace&) = default;
-};
 
 // Factor by which the rest of a job may be slower or faster than its measured part.
 inline constexpr double kUnsteady = 1.1;
 
 // Returns the settings with the measured slack, if they say `slack_as_measured`.
-SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured);
+jobs::SendSettings with_pace(jobs::SendSettings settings, const std::optional<jobs::MeasuredPace>& measured);
 
 // A PaceMeter measures by one job. Not thread safe.
 class PaceMeter {
@@ -37,7 +31,7 @@ class PaceMeter {
   void interrupted();
 
   // Returns nullopt if the line was not stopped over enough of the job to know the range within a fifth.
-  std::optional<MeasuredPace> pace() const;
+  std::optional<jobs::MeasuredPace> pace() const;
 
  private:
   struct Stop {
@@ -45,14 +39,14 @@ class PaceMeter {
     TimePoint at{};
   };
 
-  std::optional<MeasuredPace> between_stops() const;
+  std::optional<jobs::MeasuredPace> between_stops() const;
   std::uint64_t begun(std::uint64_t left) const;
   double slowest_s(std::uint64_t from, std::uint64_t to) const;
 
   const Timeline& timeline_;
   const std::size_t unread_;
-  std::optional<Stop> first_, last_;    // since it was interrupted
-  std::optional<MeasuredPace> before_;  // it was: the narrowest
+  std::optional<Stop> first_, last_;          // since it was interrupted
+  std::optional<jobs::MeasuredPace> before_;  // it was: the narrowest
 };
 
 }  // namespace axisgate::rml1

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/window.h"
@@ -12,11 +12,11 @@ namespace axisgate::rml1 {
 namespace {
 
 // The mill loses what its buffer has no room for if there is no flow control.
-std::size_t window_of(std::string_view job, const Timeline& timeline, const SendSettings& settings) {
+std::size_t window_of(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings) {
   if (settings.window > 0) return settings.window;
-  if (settings.streaming == Streaming::full) return kWindows[0];
+  if (settings.streaming == jobs::Streaming::full) return kWindows[0];
   const std::size_t adapted = adapted_window(job, timeline, settings.slack, settings.baud);
-  return guarded(MillGuard::window_fits_buffer) ? std::min(adapted, settings.buffer) : adapted;
+  return guarded(jobs::MillGuard::window_fits_buffer) ? std::min(adapted, settings.buffer) : adapted;
 }
 
 std::size_t longest_write(std::string_view job, std::size_t window) {
@@ -40,7 +40,8 @@ double most_within(std::size_t bytes, const Timeline& timeline, float Step::*amo
 }
 
 // The line sends or the mill executes: where the line is held, the mill has something to do.
-RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& timeline, const SendSettings& settings) {
+jobs::RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& timeline,
+                      const jobs::SendSettings& settings) {
   const std::chrono::duration<double> executing(most_within(at_most, timeline, &Step::slowest_s) * settings.slack);
   return {at_most, if_held, std::chrono::ceil<Duration>(executing) + transmit_time(at_most, settings.baud),
           most_within(at_most, timeline, &Step::mm)};
@@ -49,11 +50,12 @@ RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& timeli
 }  // namespace
 
 // The mill's buffer may be full while it executes a command, and another one is in the host.
-SendPlan plan_of(std::string_view job, const Timeline& timeline, const SendSettings& settings) {
+SendPlan plan_of(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings) {
   const std::size_t window = window_of(job, timeline, settings);
   const std::size_t longest = longest_write(job, window);
   const std::size_t full = settings.buffer + settings.converter + 2 * longest;
-  const std::size_t at_most = settings.streaming == Streaming::full ? full : std::min(std::max(window, longest), full);
+  const std::size_t at_most =
+      settings.streaming == jobs::Streaming::full ? full : std::min(std::max(window, longest), full);
   return {window, settings.slack, run_on_of(at_most, full, timeline, settings)};
 }
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "device/core/transitions.h"
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
@@ -13,24 +13,15 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, kSenderStates> kSenderStateNames = {
-    "READY", "SENDING", "PAUSED", "FINISHING", "FED", "ABORTING", "ABORTED", "LOST", "RAISING", "RAISED"};
 constexpr std::array<std::string_view, kSendEvents> kSendEventNames = {
     "start", "pause", "resume", "raise", "all_written", "all_executed", "abort", "abort_left", "line_lost"};
 
 }  // namespace
 
-std::string_view name(SenderState state) { return kSenderStateNames.at(static_cast<std::size_t>(state)); }
-
 std::string_view name(SendEvent event) { return kSendEventNames.at(static_cast<std::size_t>(event)); }
 
-bool is_end(SenderState state) {
-  return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost ||
-         state == SenderState::raised;
-}
-
-Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
-               const SendPlan& plan, const MillLine& mill)
+Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile,
+               const jobs::SendSettings& settings, const SendPlan& plan, const MillLine& mill)
     : job_(job),
       timeline_(timeline),
       profile_(profile),
@@ -44,9 +35,9 @@ Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& pr
       meter_(timeline, settings.buffer + settings.converter),
       cutter_(job, plan.window) {}
 
-std::optional<SenderState> next(SenderState state, SendEvent event) {
-  using enum SenderState;
-  using Change = Transition<SenderState, SendEvent>;
+std::optional<jobs::SenderState> next(jobs::SenderState state, SendEvent event) {
+  using enum jobs::SenderState;
+  using Change = Transition<jobs::SenderState, SendEvent>;
   static constexpr std::array kTable = {
       Change{ready, SendEvent::start, sending},           Change{sending, SendEvent::pause, paused},
       Change{paused, SendEvent::resume, sending},         Change{sending, SendEvent::raise, raising},
@@ -91,11 +82,11 @@ void Sender::resume(TimePoint now) {
 
 void Sender::raise(TimePoint now) {
   advance(now);
-  if (request(SendEvent::raise)) line_.write(lift_words(profile_, rests_behind_written()));
+  if (request(SendEvent::raise)) line_.write(lift_words(profile_, rests_after_written()));
 }
 
 // The spindle, when the mill has executed all that was written.
-bool Sender::rests_behind_written() const {
+bool Sender::rests_after_written() const {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);
   return next == steps.begin() || !std::prev(next)->turning;
@@ -107,7 +98,7 @@ void Sender::line_lost(TimePoint) { request(SendEvent::line_lost); }
 void Sender::abort(TimePoint now) {
   learn(now);
   const bool rests = may_rest(now);
-  if (guarded(MillGuard::abort_ends_job) && !request(SendEvent::abort)) return;
+  if (guarded(jobs::MillGuard::abort_ends_job) && !request(SendEvent::abort)) return;
   abort_.write(rests, now);
 }
 
@@ -117,13 +108,13 @@ bool Sender::abort_may_be_dropped() const {
 
 void Sender::advance(TimePoint now) {
   learn(now);
-  if (state_ == SenderState::sending) send(now);
-  if (state_ == SenderState::aborting) {
+  if (state_ == jobs::SenderState::sending) send(now);
+  if (state_ == jobs::SenderState::aborting) {
     abort_.advance(now);
     if (!abort_.waits()) change(SendEvent::abort_left);
   }
-  if (state_ == SenderState::finishing && all_is_executed(now)) change(SendEvent::all_executed);
-  if (state_ == SenderState::raising && has_raised(now)) change(SendEvent::all_executed);
+  if (state_ == jobs::SenderState::finishing && all_is_executed(now)) change(SendEvent::all_executed);
+  if (state_ == jobs::SenderState::raising && has_raised(now)) change(SendEvent::all_executed);
 }
 
 // The mill begins to raise the tool when it has executed what was sent of the job.
@@ -138,17 +129,17 @@ bool Sender::has_raised(TimePoint now) {
 
 // A mill that has executed all has room, so what it holds back has not all been executed.
 bool Sender::all_is_executed(TimePoint now) {
-  if (guarded(MillGuard::fed_when_arrived) && is_blocked()) return false;
-  return !guarded(MillGuard::fed_by_the_slowest) || slowest_.executed(now) >= job_.size();
+  if (guarded(jobs::MillGuard::fed_when_arrived) && is_blocked()) return false;
+  return !guarded(jobs::MillGuard::fed_by_the_slowest) || slowest_.executed(now) >= job_.size();
 }
 
 bool Sender::is_blocked() const { return line_.unsent() > 0 || line_.held(); }
 
 void Sender::send(TimePoint now) {
   while (cutter_.begin() < job_.size()) {
-    if (guarded(MillGuard::one_command_unsent) && line_.unsent() > 0) return;
-    if (guarded(MillGuard::nothing_while_held) && line_.held()) return;
-    if (guarded(MillGuard::window) && !has_room(now)) return;
+    if (guarded(jobs::MillGuard::one_command_unsent) && line_.unsent() > 0) return;
+    if (guarded(jobs::MillGuard::nothing_while_held) && line_.held()) return;
+    if (guarded(jobs::MillGuard::window) && !has_room(now)) return;
     write(now);
   }
   change(SendEvent::all_written);
@@ -165,7 +156,7 @@ void Sender::write(TimePoint now) {
 }
 
 bool Sender::has_room(TimePoint now) {
-  if (settings_.streaming == Streaming::full) return true;
+  if (settings_.streaming == jobs::Streaming::full) return true;
   const std::uint64_t executed = slowest_.executed(now);
   return executed == cutter_.begin() || cutter_.end() - executed <= plan_.window;
 }
@@ -184,14 +175,14 @@ void Sender::learn(TimePoint now) {
 
 // Otherwise what leaves the host may be lost: in a full buffer, as after an abort, or with the line.
 bool Sender::heeds_flow_control() const {
-  return settings_.flow_control && state_ != SenderState::aborting && !is_end(state_);
+  return settings_.flow_control && state_ != jobs::SenderState::aborting && !is_end(state_);
 }
 
 // A line that the mill stops shows that it has bytes to read. XOFF, and the printer driver, show only as bytes that do
 // not leave.
 void Sender::measure(TimePoint now) {
-  const bool sends = state_ == SenderState::sending || state_ == SenderState::finishing;
-  if (settings_.streaming != Streaming::full || !sends) return;
+  const bool sends = state_ == jobs::SenderState::sending || state_ == jobs::SenderState::finishing;
+  if (settings_.streaming != jobs::Streaming::full || !sends) return;
   const std::size_t unsent = line_.unsent();
   if (!line_.held() && (unsent == 0 || now <= leaves_ + kLook)) return;
   meter_.stopped(cutter_.begin() - std::min(unsent, cutter_.begin()), now);
@@ -199,7 +190,7 @@ void Sender::measure(TimePoint now) {
 
 // Bytes wait on this side of a line that is held: in the host, and perhaps in a converter.
 void Sender::learn_what_waits(TimePoint now) {
-  if (!guarded(MillGuard::counted_from_arrival) || !is_blocked()) return;
+  if (!guarded(jobs::MillGuard::counted_from_arrival) || !is_blocked()) return;
   const std::size_t waits = line_.unsent() + (line_.held() ? settings_.converter : 0);
   slowest_.not_arrived(cutter_.begin() - std::min(waits, cutter_.begin()), transmit_time(1, settings_.baud), now);
   arrives_ = std::max(arrives_, now + transmit_time(waits, settings_.baud));
@@ -218,14 +209,14 @@ bool Sender::may_rest(TimePoint now) {
 
 std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   switch (state_) {
-    case SenderState::sending:
+    case jobs::SenderState::sending:
       if (is_blocked()) return now + until_next_look();
-      return settings_.streaming == Streaming::full ? now : look_before(room_at(), now);
-    case SenderState::aborting:
+      return settings_.streaming == jobs::Streaming::full ? now : look_before(room_at(), now);
+    case jobs::SenderState::aborting:
       return now + kLook;
-    case SenderState::finishing:
+    case jobs::SenderState::finishing:
       return is_blocked() ? now + until_next_look() : look_before(slowest_.when(job_.size()), now);
-    case SenderState::raising:
+    case jobs::SenderState::raising:
       if (is_blocked()) return now + until_next_look();
       return raised_at_ ? *raised_at_ : look_before(slowest_.when(cutter_.begin()), now);
     default:
@@ -233,7 +224,7 @@ std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   }
 }
 
-// The line does not rest longer than it must behind its last byte.
+// The line does not rest longer than necessary after its last byte.
 Duration Sender::until_next_look() const {
   return line_.unsent() > 0 ? std::min(kLook, transmit_time(line_.unsent(), settings_.baud)) : kLook;
 }
@@ -256,7 +247,7 @@ std::uint64_t Sender::executed_for_certain(TimePoint now) {
   return std::min<std::uint64_t>(by_profile, left - std::min(left, settings_.buffer + settings_.converter));
 }
 
-SendProgress Sender::progress(TimePoint now) {
+jobs::SendProgress Sender::progress(TimePoint now) {
   learn(now);
   const std::uint64_t executed = slowest_.executed(now);
   taken_ = std::max(taken_, executed);

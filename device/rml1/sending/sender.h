@@ -9,36 +9,24 @@
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
 #include "device/core/violations.h"
+#include "device/jobs/send_settings.h"
+#include "device/jobs/sending.h"
 #include "device/rml1/machine/profile.h"
 #include "device/rml1/sending/abort.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/pace.h"
 #include "device/rml1/sending/pace_meter.h"
 #include "device/rml1/sending/plan.h"
-#include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
 
-enum class SenderState { ready, sending, paused, finishing, fed, aborting, aborted, lost, raising, raised };
-std::string_view name(SenderState state);  // "READY", "SENDING" ...
-bool is_end(SenderState state);
-
-// Bytes of the job.
-struct SendProgress {
-  std::uint64_t written = 0;         // to the line
-  std::uint64_t unsent = 0;          // of these, still in the host, as far as that can be known
-  std::uint64_t taken = 0;           // at least, by the mill; never descends
-  std::uint64_t executed_least = 0;  // by the slowest mill
-  std::uint64_t executed_most = 0;   // by the fastest
-};
-
 enum class SendEvent { start, pause, resume, raise, all_written, all_executed, abort, abort_left, line_lost };
 std::string_view name(SendEvent event);  // "start", as in README.md
-inline constexpr std::size_t kSenderStates = 10, kSendEvents = 9;
+inline constexpr std::size_t kSendEvents = 9;
 
 // Returns the state after the event; nullopt if the table has none.
-std::optional<SenderState> next(SenderState state, SendEvent event);
+std::optional<jobs::SenderState> next(jobs::SenderState state, SendEvent event);
 
 // A MillLine is what a sender shares with everything else that writes to the mill.
 struct MillLine {
@@ -52,16 +40,16 @@ class Sender {
  public:
   // `job`: with prologue and epilogue, checked. `plan`: of the job and the settings. The referenced objects must
   // outlive this one.
-  Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
+  Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const jobs::SendSettings& settings,
          const SendPlan& plan, const MillLine& mill);
 
-  RunOn run_on() const { return plan_.run_on; }
+  jobs::RunOn run_on() const { return plan_.run_on; }
 
   // A call that the present state does not allow has no effect.
   void start(TimePoint now);
   void pause(TimePoint now);
   void resume(TimePoint now);
-  // Sends no more of the job, and raises the tool behind what was sent.
+  // Sends no more of the job, and raises the tool after the last sent byte.
   void raise(TimePoint now);
   // Nothing of the job is written after it.
   void abort(TimePoint now);
@@ -71,8 +59,8 @@ class Sender {
   // Returns when to call advance() again; nullopt: not before another call.
   std::optional<TimePoint> next_deadline(TimePoint now) const;
 
-  SenderState state() const { return state_; }
-  SendProgress progress(TimePoint now);
+  jobs::SenderState state() const { return state_; }
+  jobs::SendProgress progress(TimePoint now);
   // Bytes of the job that the mill has executed even if its panel holds it: while the line is stopped, all that has
   // left the host but what the mill's buffer and a converter hold.
   std::uint64_t executed_for_certain(TimePoint now);
@@ -81,7 +69,7 @@ class Sender {
   bool abort_may_be_dropped() const;
   // Measured pace of the mill. nullopt with paced streaming, or before the line has been stopped long enough to measure
   // it.
-  std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
+  std::optional<jobs::MeasuredPace> measured_pace() const { return meter_.pace(); }
 
   // Between two looks at a line that has something to send, or is held, at most.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
@@ -98,7 +86,7 @@ class Sender {
   void measure(TimePoint now);
   bool all_is_executed(TimePoint now);
   bool has_raised(TimePoint now);
-  bool rests_behind_written() const;
+  bool rests_after_written() const;
   bool is_blocked() const;
   Duration until_next_look() const;
   TimePoint look_before(TimePoint due, TimePoint now) const;
@@ -108,14 +96,14 @@ class Sender {
   const std::string_view job_;
   const Timeline& timeline_;
   const Profile& profile_;
-  const SendSettings settings_;
+  const jobs::SendSettings settings_;
   const SendPlan plan_;
   FlowLink& line_;
   Abort& abort_;
   Violations& violations_;
   Pace slowest_, fastest_;
   PaceMeter meter_;
-  SenderState state_ = SenderState::ready;
+  jobs::SenderState state_ = jobs::SenderState::ready;
   Cutter cutter_;  // written up to its begin()
   std::uint64_t taken_ = 0;
   TimePoint leaves_{};                  // the last of them, the host, if nothing stops the line

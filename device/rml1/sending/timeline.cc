@@ -12,7 +12,8 @@ namespace {
 
 class Recorder : public MachineListener {
  public:
-  Recorder(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics, std::vector<Step>& steps)
+  Recorder(const Profile& profile, std::optional<jobs::Origin> origin, Diagnostics& diagnostics,
+           std::vector<Step>& steps)
       : profile_(profile),
         knows_z0_(origin.has_value()),
         steps_(steps),
@@ -28,7 +29,7 @@ class Recorder : public MachineListener {
     const bool rests = what == Wait::spin_up;  // until then
     add(end, wait_time(what, seconds, profile_.acceleration), !rests && machine_.spindle_turns());
   }
-  void commanded(const Point&, const Point&, bool, const Instruction& by) override {
+  void commanded(const jobs::Point&, const jobs::Point&, bool, const Instruction& by) override {
     if (by.first || machine_.dwell_s() == 0) return;
     add(by.end, dwell_between_points(machine_.dwell_s()), machine_.spindle_turns());
   }
@@ -47,7 +48,7 @@ class Recorder : public MachineListener {
 
 }  // namespace
 
-Timeline::Timeline(std::string_view job, const Profile& profile, std::optional<Origin> origin) {
+Timeline::Timeline(std::string_view job, const Profile& profile, std::optional<jobs::Origin> origin) {
   Diagnostics diagnostics;
   Recorder recorder(profile, origin, diagnostics, steps_);
   Parser parser(profile.dialect, diagnostics, recorder.machine());

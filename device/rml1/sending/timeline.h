@@ -24,7 +24,7 @@ struct Step {
 class Timeline {
  public:
   // The job was checked: errors in it are passed over, as by a mill. `origin`: as of the check.
-  Timeline(std::string_view job, const Profile& profile, std::optional<Origin> origin);
+  Timeline(std::string_view job, const Profile& profile, std::optional<jobs::Origin> origin);
 
   const std::vector<Step>& steps() const { return steps_; }
   double slowest_s() const { return slowest_s_; }
