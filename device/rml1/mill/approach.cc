@@ -27,7 +27,7 @@ std::string decimal(double value) {
 constexpr std::string_view kTravelAtTheTop = "!PZ0,8388607;";
 
 tl::unexpected<Problem> no_way(const Prefix& prefix, std::string_view why) {
-  const Place& at = prefix.next()->begins;
+  const jobs::Place& at = prefix.next()->begins;
   return fail(Reason::invalid_request,
               fmt::format("the job cannot continue at line {}, column {}: {}", at.line, at.column, why),
               "choose an earlier line, or send what is left as a job of its own");
@@ -35,7 +35,7 @@ tl::unexpected<Problem> no_way(const Prefix& prefix, std::string_view why) {
 
 Result<void> check_way(const Prefix& prefix) {
   const Machine& machine = prefix.machine();
-  const Point &tool = machine.tool(), &commanded = machine.commanded();
+  const jobs::Point &tool = machine.tool(), &commanded = machine.commanded();
   if (prefix.leaves().surface)
     return no_way(prefix, "before it the job sets Z0 (!ZO), and where that lies now is not known");
   if (prefix.leaves().rotation)
@@ -71,7 +71,7 @@ std::string spindle(const Machine& machine) { return machine.spindle_permitted()
 // Straight down, above the place. PD and PU also set what the next PA and PR keep.
 std::string way_down(const Prefix& prefix) {
   const Machine& machine = prefix.machine();
-  const Point& there = machine.commanded();
+  const jobs::Point& there = machine.commanded();
   const bool lowered = machine.tool_lowered();
   if (there.z == (lowered ? machine.z1() : machine.z2())) return lowered ? "^PD;" : "^PU;";
   if (prefix.height() == Prefix::Height::machine) return fmt::format("!ZM{};", decimal(prefix.machine_height()));
@@ -89,7 +89,7 @@ std::string before_next(const Prefix& prefix) {
 
 std::string words_to(const Prefix& prefix, const Profile& profile) {
   const Machine& machine = prefix.machine();
-  const Point& there = machine.commanded();
+  const jobs::Point& there = machine.commanded();
   std::string words = "!MC0;^PA;" + raise(profile) + std::string(kTravelAtTheTop);
   // !ZM, since what is commanded is still that Z2.
   words += fmt::format("^PU{},{};!ZM{};", decimal(there.x), decimal(there.y), decimal(profile.top));
@@ -109,11 +109,11 @@ std::set<Warning> warnings_of(const std::vector<Diagnostic>& diagnostics) {
 }  // namespace
 
 Result<Approach> approach_to(std::string_view body, std::uint64_t from, const Profile& profile,
-                             std::optional<Origin> origin) {
+                             std::optional<jobs::Origin> origin) {
   const Prefix prefix(body, from, profile, origin);
   if (!prefix.next()) {
     return fail(Reason::invalid_request,
-                fmt::format("there is no command at byte {} of {} or behind it", from, body.size()),
+                fmt::format("there is no command at byte {} of {} or after it", from, body.size()),
                 "choose an earlier line");
   }
   if (!prefix.has_effect()) return Approach{};
@@ -126,12 +126,12 @@ std::string continued(std::string_view body, const Approach& approach) {
 }
 
 Result<void> check_unchanged(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin) {
+                             std::optional<jobs::Origin> origin) {
   const Prefix before(body, approach.at.offset, profile, origin), all(body, body.size(), profile, origin);
-  const Leaves &then = before.leaves(), &now = all.leaves();
+  const jobs::Leaves &then = before.leaves(), &now = all.leaves();
   const auto changed = [](std::string_view what) {
     return fail(Reason::invalid_request,
-                fmt::format("behind that place the job {}, and the mill may have done so already", what),
+                fmt::format("after that place the job {}, and the mill may have done so already", what),
                 "cancel it, and send what is left as a job of its own");
   };
   if (now.surface && !then.surface) return changed("sets Z0 (!ZO)");
@@ -141,7 +141,7 @@ Result<void> check_unchanged(std::string_view body, const Approach& approach, co
 }
 
 Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin, std::optional<Stock> stock) {
+                             std::optional<jobs::Origin> origin, std::optional<jobs::Stock> stock) {
   const auto check = [&](std::string_view job) {
     Check checked(profile, {.origin = origin, .stock = stock, .others = {}});
     checked.feed(job);
@@ -158,19 +158,6 @@ Result<void> check_continued(std::string_view body, const Approach& approach, co
                 "choose another line");
   }
   return {};
-}
-
-std::uint64_t offset_of(std::string_view body, std::uint64_t line, std::uint64_t column) {
-  std::size_t begin = 0;
-  for (; line > 1 && begin < body.size(); --line) begin = std::min(body.find('\n', begin), body.size() - 1) + 1;
-  return std::min<std::uint64_t>(body.size(), begin + column - 1);
-}
-
-Place place_of(std::string_view body, std::uint64_t offset) {
-  const std::string_view before = body.substr(0, offset);
-  const auto line = 1 + static_cast<std::uint64_t>(std::ranges::count(before, '\n'));
-  const std::size_t last = before.rfind('\n');
-  return {before.size(), line, before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1};
 }
 
 }  // namespace axisgate::rml1

@@ -7,15 +7,15 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/check/stock.h"
-#include "device/rml1/language/place.h"
+#include "device/jobs/place.h"
+#include "device/jobs/stock.h"
 #include "device/rml1/machine/machine.h"
 #include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 
 struct Approach {
-  Place at;           // place in the part where sending begins: a command, or a set of its coordinates
+  jobs::Place at;     // place in the part where sending begins: a command, or a set of its coordinates
   std::string words;  // sent after the prologue and before the place; empty if nothing before it moves or sets anything
 };
 
@@ -24,7 +24,7 @@ struct Approach {
 // checked. `origin`: as of the check. Fails with invalid_request if there is no command, or no safe way (README.md,
 // "Continuing").
 Result<Approach> approach_to(std::string_view body, std::uint64_t from, const Profile& profile,
-                             std::optional<Origin> origin);
+                             std::optional<jobs::Origin> origin);
 
 // Returns the bytes that are then sent of the part, between prologue and epilogue.
 std::string continued(std::string_view body, const Approach& approach);
@@ -33,16 +33,11 @@ std::string continued(std::string_view body, const Approach& approach);
 // invalid_request if a command of it after the place sets what no command can undo: Z0, the spindle speed, the rotary
 // axis.
 Result<void> check_unchanged(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin);
+                             std::optional<jobs::Origin> origin);
 
 // Judges the rest as the part itself was judged. Fails with invalid_request if it has an error, or a kind of warning
 // that the whole part does not have.
 Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin, std::optional<Stock> stock);
-
-// Returns the byte at which a line, or a column of it, begins; both count from 1. Returns the size for a place after
-// the end.
-std::uint64_t offset_of(std::string_view body, std::uint64_t line, std::uint64_t column);
-Place place_of(std::string_view body, std::uint64_t offset);
+                             std::optional<jobs::Origin> origin, std::optional<jobs::Stock> stock);
 
 }  // namespace axisgate::rml1

@@ -11,7 +11,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-Result<double> step_speed(const JogStep& step, const Profile& profile) {
+Result<double> step_speed(const jobs::JogStep& step, const Profile& profile) {
   const double lowest = profile.speed.z_minimum, highest = profile.speed.z_maximum;
   const double speed = step.mm_per_s.value_or(std::clamp(profile.speed.z_default, lowest, highest));
   if (speed >= lowest && speed <= highest) return speed;
@@ -19,7 +19,7 @@ Result<double> step_speed(const JogStep& step, const Profile& profile) {
               fmt::format("use {:g} to {:g} mm/s", lowest, highest));
 }
 
-Result<void> check_length(const JogStep& step) {
+Result<void> check_length(const jobs::JogStep& step) {
   for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
     if (!(std::abs(mm) <= kFarthestStepMm)) {
       return fail(Reason::out_of_range, fmt::format("a step of {:g} mm in {} is too long", mm, axis),
@@ -32,7 +32,7 @@ Result<void> check_length(const JogStep& step) {
 }
 
 // !ZZ starts a permitted spindle (guideline 5-2).
-Result<HandWords> step_words(const JogStep& step, const Profile& profile, double slack) {
+Result<HandWords> step_words(const jobs::JogStep& step, const Profile& profile, double slack) {
   if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
   const Result<double> speed = step_speed(step, profile);
   if (!speed) return tl::unexpected(speed.error());
@@ -47,8 +47,8 @@ Result<HandWords> step_words(const JogStep& step, const Profile& profile, double
                    longest_way(way, *speed, profile, slack)};
 }
 
-// Behind PR a parameter of 0 is the present height, behind PA a machine coordinate (guideline 3-3 !ZO).
-Result<HandWords> surface_words(const SetSurface& surface, const Profile& profile) {
+// After PR a parameter of 0 is the present height, after PA a machine coordinate (guideline 3-3 !ZO).
+Result<HandWords> surface_words(const jobs::SetSurface& surface, const Profile& profile) {
   if (!surface.at) return HandWords{";^PR;!ZO0;^PA;"};
   const double travel = std::round(profile.steps(profile.z_mm));
   const double below_top = profile.up * (profile.top - static_cast<double>(*surface.at));
@@ -60,41 +60,18 @@ Result<HandWords> surface_words(const SetSurface& surface, const Profile& profil
 }
 
 // "Rotation is performed at the time of a command that involves movement", where it is not prohibited (guideline 5-2).
-Result<HandWords> spindle_words(const TurnSpindle& spindle, const Profile& profile, double slack) {
+Result<HandWords> spindle_words(const jobs::TurnSpindle& spindle, const Profile& profile, double slack) {
   if (!spindle.on) return HandWords{";!MC0;"};
   const std::chrono::duration<double> spin_up(slack * profile.spindle.spin_up_s);
   return HandWords{";!MC1;^PR;!ZZ0,0,0;^PA;", std::chrono::duration_cast<Duration>(spin_up)};
 }
 
-std::string step_text(const JogStep& step) {
-  std::string text = "jog by";
-  const char* between = " ";
-  for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
-    if (mm == 0) continue;
-    text += fmt::format("{}{} {:g} mm", between, axis, mm);
-    between = ", ";
-  }
-  return step.mm_per_s ? fmt::format("{} at {:g} mm/s", text, *step.mm_per_s) : text;
-}
-
-std::string surface_text(const SetSurface& surface) {
-  return surface.at ? fmt::format("set Z0 to the machine coordinate {}", *surface.at) : "set Z0 to where the tool is";
-}
-
 }  // namespace
 
-std::string text_of(const HandAct& act) {
-  if (const auto* step = std::get_if<JogStep>(&act)) return step_text(*step);
-  if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_text(*surface);
-  if (const auto* spindle = std::get_if<TurnSpindle>(&act))
-    return spindle->on ? "start the spindle" : "stop the spindle";
-  return "raise the tool";
-}
-
-Result<HandWords> words_of(const HandAct& act, const Profile& profile, double slack) {
-  if (const auto* step = std::get_if<JogStep>(&act)) return step_words(*step, profile, slack);
-  if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_words(*surface, profile);
-  if (const auto* spindle = std::get_if<TurnSpindle>(&act)) return spindle_words(*spindle, profile, slack);
+Result<HandWords> words_of(const jobs::HandAct& act, const Profile& profile, double slack) {
+  if (const auto* step = std::get_if<jobs::JogStep>(&act)) return step_words(*step, profile, slack);
+  if (const auto* surface = std::get_if<jobs::SetSurface>(&act)) return surface_words(*surface, profile);
+  if (const auto* spindle = std::get_if<jobs::TurnSpindle>(&act)) return spindle_words(*spindle, profile, slack);
   return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile, slack)};
 }
 

@@ -42,13 +42,13 @@ Result<void> HandWork::check_idle(TimePoint now) const {
 }
 
 // Steps do not add up while nobody looks. Z0 after a step is set where the step leads.
-Result<void> HandWork::check(const HandAct& act, TimePoint now) const {
+Result<void> HandWork::check(const jobs::HandAct& act, TimePoint now) const {
   if (const Result<void> taken = check_taken(); !taken) return taken;
   if (line_.held()) {
     return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
   }
-  const auto* surface = std::get_if<SetSurface>(&act);
-  const bool is_step = std::holds_alternative<JogStep>(act);
+  const auto* surface = std::get_if<jobs::SetSurface>(&act);
+  const bool is_step = std::holds_alternative<jobs::JogStep>(act);
   if (is_step || (surface != nullptr && !surface->at)) {
     if (const Result<void> risen = check_risen(now); !risen) return risen;
   }

@@ -19,9 +19,9 @@ class HandWork {
       : profile_(profile), slack_(slack), line_(line), abort_(abort) {}
 
   // Words of an act, as words_of() says and fails.
-  Result<HandWords> words(const HandAct& act) const { return words_of(act, profile_, slack_); }
+  Result<HandWords> words(const jobs::HandAct& act) const { return words_of(act, profile_, slack_); }
   // Fails with axis_busy if the mill takes nothing, or if the step or the abort before may not be done.
-  Result<void> check(const HandAct& act, TimePoint now) const;
+  Result<void> check(const jobs::HandAct& act, TimePoint now) const;
   // Fails with axis_busy if the mill has not taken all it was sent, or may still do what it was sent by hand.
   Result<void> check_idle(TimePoint now) const;
   // Writes the words. Returns the time after which the mill has done this, and all acts before, at the latest.

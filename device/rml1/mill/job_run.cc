@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -21,18 +21,18 @@ Duration longest_return(const Profile& profile, double slack) {
   return across + down + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(profile.spindle.spin_up_s));
 }
 
-tl::unexpected<Problem> refuse_paused(JobNumber job, std::string_view is, std::string_view hint) {
+tl::unexpected<Problem> refuse_paused(jobs::JobNumber job, std::string_view is, std::string_view hint) {
   return fail(Reason::wrong_mode, fmt::format("job {} is {} already", job, is), std::string(hint));
 }
 
 }  // namespace
 
-void JobRun::start(Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
+void JobRun::start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
                    TimePoint now) {
   job.written.reset();
   job.executed.reset();
   set_plan(job, prepared->times().whole(), prepared->plan().run_on);
-  queue_.change(job, JobEvent::start, by.who, "", now);
+  queue_.change(job, jobs::JobEvent::start, by.who, "", now);
   rights_.job_begins(job, by, now);
   const PreparedJob& it = *prepared;
   run_.reset(new Run{.number = job.number,
@@ -46,20 +46,20 @@ void JobRun::start(Job& job, std::shared_ptr<const PreparedJob> prepared, const 
 
 // A job that was raised no longer runs: it is PAUSED in the queue.
 Result<void> JobRun::check_sending(bool raise) const {
-  switch (run_ ? run_->sender.state() : SenderState::ready) {
-    case SenderState::sending:
-    case SenderState::finishing:
+  switch (run_ ? run_->sender.state() : jobs::SenderState::ready) {
+    case jobs::SenderState::sending:
+    case jobs::SenderState::finishing:
       return {};
-    case SenderState::paused:
+    case jobs::SenderState::paused:
       if (raise) return {};
       return refuse_paused(run_->number, "paused",
                            "`axisctl mill resume` continues it; `axisctl mill pause --raise` raises its tool");
-    case SenderState::raising:
+    case jobs::SenderState::raising:
       return refuse_paused(run_->number, "being paused", "its tool goes up after what was sent");
     default:
       break;
   }
-  const Job* const paused = queue_.first_in(JobState::paused);
+  const jobs::Job* const paused = queue_.first_in(jobs::JobState::paused);
   if (!run_ && paused != nullptr) {
     return refuse_paused(paused->number, "paused", "it continues once it is confirmed and started");
   }
@@ -70,7 +70,7 @@ Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
   if (const Result<void> sending = check_sending(raise); !sending) return sending;
   const std::uint64_t written = prepared().of_body(run_->sender.progress(now).written);
   const bool has_rest = written < part_end(job());
-  if (run_->sender.state() != SenderState::finishing && (has_rest || !raise)) return {};
+  if (run_->sender.state() != jobs::SenderState::finishing && (has_rest || !raise)) return {};
   const bool last = is_last_part(job());
   return fail(
       Reason::wrong_mode, fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
@@ -86,7 +86,7 @@ Result<void> JobRun::pause(bool raise, TimePoint now) {
 }
 
 Result<void> JobRun::check_resumable() const {
-  if (run_ && run_->sender.state() == SenderState::paused) return {};
+  if (run_ && run_->sender.state() == jobs::SenderState::paused) return {};
   return fail(
       Reason::wrong_mode, "no job is paused with the tool in the cut",
       "`axisctl mill queue` shows what the mill does; one that is PAUSED continues when it is confirmed and started");
@@ -107,38 +107,40 @@ void JobRun::abort(std::string_view by, TimePoint now) {
 // Only the first abort counts: bytes that left the model of the mill after it may have been discarded.
 void JobRun::note_executed(TimePoint now) {
   if (job().executed) return;
-  const SendProgress progress = run_->sender.progress(now);
+  const jobs::SendProgress progress = run_->sender.progress(now);
   job().executed = prepared().executed(run_->sender.executed_for_certain(now), progress.written);
 }
 
 void JobRun::line_lost(std::string_view why, TimePoint now) {
   if (!run_) return;
   run_->sender.line_lost(now);
-  end(JobEvent::lost, "", why, now);
+  end(jobs::JobEvent::lost, "", why, now);
 }
 
 void JobRun::abandon(std::string_view why, TimePoint now) {
   if (!run_) return;
   job().written = written_at_loss();
-  const JobNumber number = run_->number;
+  const jobs::JobNumber number = run_->number;
   run_.reset();
   rights_.job_ends(number, now);
   queue_.abandon(queue_.at(number), why, now);
 }
 
 void JobRun::about_to_write(std::size_t bytes, std::size_t unsent) {
-  if (!run_ || run_->sender.state() != SenderState::sending) return;
+  if (!run_ || run_->sender.state() != jobs::SenderState::sending) return;
   const std::uint64_t least = in_mill(run_->noted - std::min<std::uint64_t>(unsent, run_->noted));
   run_->noted += bytes;
   events_.about_to_write(run_->number, {prepared().of_body(least), prepared().of_body(run_->noted)});
 }
 
-std::optional<RunningJob> JobRun::view(TimePoint now) { return run_ ? std::optional(view_of_run(now)) : std::nullopt; }
+std::optional<jobs::RunningJob> JobRun::view(TimePoint now) {
+  return run_ ? std::optional(view_of_run(now)) : std::nullopt;
+}
 
-RunningJob JobRun::view_of_run(TimePoint now) {
-  SendProgress progress = run_->sender.progress(now);
+jobs::RunningJob JobRun::view_of_run(TimePoint now) {
+  jobs::SendProgress progress = run_->sender.progress(now);
   const PreparedJob& sent = prepared();
-  TimeRange left = left_of(sent, progress, run_->sender.measured_pace());
+  jobs::TimeRange left = left_of(sent, progress, run_->sender.measured_pace());
   left += takes_later(job());
   progress = {sent.of_body(progress.written), progress.unsent, sent.of_body(progress.taken),
               sent.of_body(progress.executed_least), sent.of_body(progress.executed_most)};
@@ -154,20 +156,20 @@ RunningJob JobRun::view_of_run(TimePoint now) {
 void JobRun::follow_sender(TimePoint now) {
   if (!run_) return;
   judge_busy(now);
-  const SenderState state = run_->sender.state();
+  const jobs::SenderState state = run_->sender.state();
   if (std::exchange(run_->seen, state) != state) events_.sender_changed(view_of_run(now), now);
-  if (state == SenderState::fed) return end_fed_part(now);
-  if (state == SenderState::raised) return end_raised(now);
-  if (state == SenderState::aborted) end_aborted(now);
+  if (state == jobs::SenderState::fed) return end_fed_part(now);
+  if (state == jobs::SenderState::raised) return end_raised(now);
+  if (state == jobs::SenderState::aborted) end_aborted(now);
 }
 
 // A mill takes nothing if its panel holds it, if it is off, or if its buffer is full; the line does not say which.
 void JobRun::judge_busy(TimePoint now) {
-  const SendProgress progress = run_->sender.progress(now);
+  const jobs::SendProgress progress = run_->sender.progress(now);
   const std::uint64_t left = progress.written - progress.unsent;
-  const SenderState state = run_->sender.state();
-  const bool has_sent =
-      state == SenderState::sending || state == SenderState::finishing || state == SenderState::raising;
+  const jobs::SenderState state = run_->sender.state();
+  const bool has_sent = state == jobs::SenderState::sending || state == jobs::SenderState::finishing ||
+                        state == jobs::SenderState::raising;
   const bool has_more = progress.unsent > 0 || (has_sent && mill_.line.held());
   if (left != run_->left || !has_more) {
     run_->left = left;
@@ -179,21 +181,21 @@ void JobRun::judge_busy(TimePoint now) {
 
 void JobRun::end_fed_part(TimePoint now) {
   if (const auto measured = run_->sender.measured_pace()) measured_pace_ = measured;
-  if (is_last_part(job())) return end(JobEvent::fed, "", "", now);
-  end(JobEvent::part_fed, "", fmt::format("the next tool is {}", job().parts[job().part + 1].tool), now);
+  if (is_last_part(job())) return end(jobs::JobEvent::fed, "", "", now);
+  end(jobs::JobEvent::part_fed, "", fmt::format("the next tool is {}", job().parts[job().part + 1].tool), now);
 }
 
 // The rest is confirmed as a job is: the tool is elsewhere, and somebody may have reached into the machine.
 void JobRun::end_raised(TimePoint now) {
   const std::uint64_t written = run_->sender.progress(now).written;
-  const Place from = prepared().place(written);
+  const jobs::Place from = prepared().place(written);
   job().setup.from = from;
-  TimeRange left = prepared().times().left(written, written);
+  jobs::TimeRange left = prepared().times().left(written, written);
   left.most += longest_return(profile_, prepared().plan().slack);
   set_plan(job(), left, run_->sender.run_on());
-  job().written = WrittenRange{prepared().of_body(written), prepared().of_body(written)};
-  end(JobEvent::raised, "", fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column),
-      now);
+  job().written = jobs::WrittenRange{prepared().of_body(written), prepared().of_body(written)};
+  end(jobs::JobEvent::raised, "",
+      fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);
 }
 
 // A job whose abort may have been dropped may run on: it has no end that could be named.
@@ -202,29 +204,29 @@ void JobRun::end_aborted(TimePoint now) {
   const std::string_view sent =
       unsure ? "the abort was sent, but the mill's buffer may have been full, and a full buffer drops it"
              : "the abort was sent";
-  end(unsure ? JobEvent::abort_unsure : JobEvent::aborted, run_->aborted_by,
+  end(unsure ? jobs::JobEvent::abort_unsure : jobs::JobEvent::aborted, run_->aborted_by,
       fmt::format("{}; {}", sent, executed_text(job())), now);
 }
 
-void JobRun::end(JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
+void JobRun::end(jobs::JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   const std::string requested_by(by);  // it may be of what runs
-  Job& ended = job();
+  jobs::Job& ended = job();
   // The run stays, so that the recovery from the error finds it.
   if (!next(ended.state, event)) return mill_.violations.illegal("job", name(ended.state), name(event));
-  if (event == JobEvent::lost || event == JobEvent::abort_unsure) ended.written = written_at_loss();
+  if (event == jobs::JobEvent::lost || event == jobs::JobEvent::abort_unsure) ended.written = written_at_loss();
   run_.reset();
   rights_.job_ends(ended.number, now);
-  if (event == JobEvent::part_fed) go_to_part(ended, ended.part + 1);
+  if (event == jobs::JobEvent::part_fed) go_to_part(ended, ended.part + 1);
   queue_.change(ended, event, requested_by, why, now);
 }
 
 // Bytes that have left the host may still be in a converter, which is gone with the line.
 std::uint64_t JobRun::in_mill(std::uint64_t left) const {
-  const std::uint64_t converter = guarded(MillGuard::converter_in_range) ? limits_.converter : 0;
+  const std::uint64_t converter = guarded(jobs::MillGuard::converter_in_range) ? limits_.converter : 0;
   return left - std::min(converter, left);
 }
 
-WrittenRange JobRun::written_at_loss() const {
+jobs::WrittenRange JobRun::written_at_loss() const {
   return {prepared().of_body(in_mill(run_->left)), prepared().of_body(run_->noted)};
 }
 
@@ -241,7 +243,7 @@ std::optional<TimePoint> JobRun::next_deadline(TimePoint now) const {
 }
 
 std::string JobRun::broken_invariant() const {
-  const Job* const running = queue_.first_in(JobState::running);
+  const jobs::Job* const running = queue_.first_in(jobs::JobState::running);
   if ((running == nullptr ? 0 : running->number) == number()) return "";
   return fmt::format("job {} runs, and the queue has job {} as the one that runs", number(),
                      running == nullptr ? 0 : running->number);

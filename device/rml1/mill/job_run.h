@@ -10,35 +10,14 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/jobs/job_queue.h"
+#include "device/jobs/rights.h"
+#include "device/jobs/running_job.h"
 #include "device/rml1/machine/profile.h"
-#include "device/rml1/mill/job_queue.h"
 #include "device/rml1/mill/prepared_job.h"
-#include "device/rml1/mill/rights.h"
 #include "device/rml1/sending/sender.h"
 
 namespace axisgate::rml1 {
-
-// State of the job that runs, for others.
-struct RunningJob {
-  JobNumber number = 0;
-  SenderState sender = SenderState::ready;
-  SendProgress progress;  // in bytes of the job itself
-  RunOn run_on;
-  TimeRange left;  // of the job, as takes() counts
-  TimePoint started{};
-  bool busy = false;  // the mill has taken nothing for MillSettings::busy_limit
-};
-
-// Listens to the job that runs. Called from within its members; must not call back.
-class RunEvents {
- public:
-  virtual ~RunEvents() = default;
-
-  virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
-  // Bytes of the job up to sent.most go to the line next, and the mill has those up to sent.least. What must outlive a
-  // killed daemon is kept before it returns.
-  virtual void about_to_write(JobNumber job, const WrittenRange& sent) = 0;
-};
 
 // Not thread safe.
 class JobRun {
@@ -49,19 +28,20 @@ class JobRun {
   };
 
   // The referenced objects must outlive this one.
-  JobRun(const Profile& profile, const Limits& limits, const MillLine& mill, JobQueue& queue, Rights& rights,
-         RunEvents& events)
+  JobRun(const Profile& profile, const Limits& limits, const MillLine& mill, jobs::JobQueue& queue,
+         jobs::Rights& rights, jobs::RunEvents& events)
       : profile_(profile), limits_(limits), mill_(mill), queue_(queue), rights_(rights), events_(events) {}
 
   // 0: no job runs.
-  JobNumber number() const { return run_ ? run_->number : 0; }
+  jobs::JobNumber number() const { return run_ ? run_->number : 0; }
   // nullopt if no job runs.
-  std::optional<RunningJob> view(TimePoint now);
+  std::optional<jobs::RunningJob> view(TimePoint now);
   // Pace of the mill by the last job that could show it; nullopt if none has.
-  const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
+  const std::optional<jobs::MeasuredPace>& measured_pace() const { return measured_pace_; }
 
   // Starts a confirmed job while none runs: its first byte goes out if the mill takes it.
-  void start(Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by, TimePoint now);
+  void start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
+             TimePoint now);
   // Fails with wrong_mode if no job is being sent. `raise`: after what was sent, the tool is raised and the spindle
   // stops, and the job is then PAUSED.
   Result<void> pause(bool raise, TimePoint now);
@@ -88,11 +68,11 @@ class JobRun {
 
  private:
   struct Run {
-    JobNumber number;
+    jobs::JobNumber number;
     std::shared_ptr<const PreparedJob> prepared;
     TimePoint started;
     Sender sender;
-    SenderState seen = SenderState::ready;
+    jobs::SenderState seen = jobs::SenderState::ready;
     std::uint64_t noted = 0;  // bytes of the text that were given to the line
     std::uint64_t left = 0;   // bytes of it that have left the host, at `left_at`
     TimePoint left_at{};
@@ -100,29 +80,29 @@ class JobRun {
     std::string aborted_by{};
   };
 
-  Job& job() { return queue_.at(run_->number); }
+  jobs::Job& job() { return queue_.at(run_->number); }
   const PreparedJob& prepared() const { return *run_->prepared; }
   Result<void> check_sending(bool raise) const;
   Result<void> check_pausable(bool raise, TimePoint now);
-  RunningJob view_of_run(TimePoint now);
+  jobs::RunningJob view_of_run(TimePoint now);
   std::uint64_t in_mill(std::uint64_t left) const;
-  WrittenRange written_at_loss() const;
+  jobs::WrittenRange written_at_loss() const;
   void note_executed(TimePoint now);
   void follow_sender(TimePoint now);
   void judge_busy(TimePoint now);
   void end_fed_part(TimePoint now);
   void end_raised(TimePoint now);
   void end_aborted(TimePoint now);
-  void end(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
+  void end(jobs::JobEvent event, std::string_view by, std::string_view why, TimePoint now);
 
   const Profile& profile_;
   const Limits limits_;
   const MillLine mill_;
-  JobQueue& queue_;
-  Rights& rights_;
-  RunEvents& events_;
+  jobs::JobQueue& queue_;
+  jobs::Rights& rights_;
+  jobs::RunEvents& events_;
   std::unique_ptr<Run> run_;
-  std::optional<MeasuredPace> measured_pace_;
+  std::optional<jobs::MeasuredPace> measured_pace_;
 };
 
 }  // namespace axisgate::rml1

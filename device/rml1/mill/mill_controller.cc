@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <variant>
 
-#include "device/rml1/language/guard.h"
+#include "device/jobs/guard.h"
 
 namespace axisgate::rml1 {
 namespace {
 
-Result<void> check_same_bytes(const Job& confirmed, const PreparedJob& prepared) {
+Result<void> check_same_bytes(const jobs::Job& confirmed, const PreparedJob& prepared) {
   if (prepared.digest() == confirmed.setup.digest && prepared.begin() == part_begin(confirmed) &&
       prepared.from() == confirmed.setup.from) {
     return {};
@@ -36,8 +36,8 @@ void MillController::NotedLine::write(std::string_view bytes) {
   mill_.events_.written(bytes, mill_.run_.number());
 }
 
-MillController::MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
-                               stage::Permission& permission)
+MillController::MillController(const Profile& profile, const jobs::MachineSettings& settings, FlowLink& line,
+                               jobs::MachineEvents& events, stage::Permission& permission)
     : settings_(settings),
       line_(*this, line),
       events_(events),
@@ -49,18 +49,18 @@ MillController::MillController(const Profile& profile, const MillSettings& setti
       run_(profile, {settings.sending.converter, settings.busy_limit}, {line_, abort_, *this}, queue_, rights_,
            events) {}
 
-void MillController::inherit(Job job) {
-  if (job.state == JobState::paused_unknown && settings_.at_loss == AtLoss::abort) abort_.postpone();
+void MillController::inherit(jobs::Job job) {
+  if (job.state == jobs::JobState::paused_unknown && settings_.at_loss == jobs::AtLoss::abort) abort_.postpone();
   queue_.inherit(std::move(job));
 }
 
-void MillController::inherit_left(const Job& last) {
+void MillController::inherit_left(const jobs::Job& last) {
   left_.inherit(last);
   queue_.show_left();
 }
 
 Result<void> MillController::check_open() const {
-  if (link_ == MillLink::open) return {};
+  if (link_ == jobs::MachineLink::open) return {};
   return fail(Reason::link_down, "the line to the mill is closed", "ask again when it is open");
 }
 
@@ -69,29 +69,31 @@ Result<void> MillController::check_no_job_runs(std::string_view hint) const {
   return fail(Reason::wrong_mode, fmt::format("job {} runs", run_.number()), std::string(hint));
 }
 
-Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now) {
+Result<void> MillController::confirm(jobs::JobNumber number, const jobs::JobSetup& seen, std::string by,
+                                     TimePoint now) {
   return check_no_job_runs("confirm the next one when it has ended")
       .and_then([&] { return confirmations_.check_next(number); })
       .and_then([&] { return check_open(); })
       .and_then([&] { return confirmations_.confirm(number, seen, std::move(by), now); });
 }
 
-Result<void> MillController::check_startable(const Job& job, TimePoint now) const {
+Result<void> MillController::check_startable(const jobs::Job& job, TimePoint now) const {
   return check_no_job_runs("wait until it has ended")
       .and_then([&] { return check_open(); })
       .and_then([&] { return confirmations_.check(job, now); })
       .and_then([&] { return hand_.check_idle(now); });
 }
 
-Result<void> MillController::check_startable(JobNumber number, TimePoint now) {
-  return queue_.find(number).and_then([&](const Job* job) { return check_startable(*job, now); });
+Result<void> MillController::check_startable(jobs::JobNumber number, TimePoint now) {
+  return queue_.find(number).and_then([&](const jobs::Job* job) { return check_startable(*job, now); });
 }
 
-Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared,
+Result<void> MillController::start(jobs::JobNumber number, std::shared_ptr<const jobs::PreparedJob> part,
                                    const stage::RequestContext& by, TimePoint now) {
-  const Result<Job*> found = queue_.find(number);
+  const Result<jobs::Job*> found = queue_.find(number);
   if (!found) return tl::unexpected(found.error());
-  Job& job = **found;
+  jobs::Job& job = **found;
+  auto prepared = std::static_pointer_cast<const PreparedJob>(std::move(part));
   const Result<void> can =
       check_startable(job, now).and_then([&] { return check_same_bytes(job, *prepared); }).and_then([&] {
         return rights_.authorize(by, number, now);
@@ -110,24 +112,25 @@ Result<void> MillController::resume(const stage::RequestContext& by, TimePoint n
   return can;
 }
 
-Result<void> MillController::choose_rest(JobNumber number, const JobRest& rest, std::string_view by, TimePoint now) {
-  const Result<Job*> found = queue_.find(number);
+Result<void> MillController::choose_rest(jobs::JobNumber number, const jobs::JobRest& rest, std::string_view by,
+                                         TimePoint now) {
+  const Result<jobs::Job*> found = queue_.find(number);
   if (!found) return tl::unexpected(found.error());
-  Job& job = **found;
-  if (!next(job.state, JobEvent::choose_rest)) {
+  jobs::Job& job = **found;
+  if (!next(job.state, jobs::JobEvent::choose_rest)) {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that is PAUSED_UNKNOWN or PAUSED is continued from a line");
   }
   job.setup.from = rest.from;
   set_plan(job, rest.takes, rest.run_on);
-  queue_.change(job, JobEvent::choose_rest, by,
+  queue_.change(job, jobs::JobEvent::choose_rest, by,
                 fmt::format("it continues at line {}, column {}", rest.from.line, rest.from.column), now);
   return {};
 }
 
-void MillController::plan_rest(const Job& planned) {
-  const Result<Job*> job = queue_.find(planned.number);
-  const bool same = job && (*job)->state == JobState::paused && (*job)->setup.from == planned.setup.from &&
+void MillController::plan_rest(const jobs::Job& planned) {
+  const Result<jobs::Job*> job = queue_.find(planned.number);
+  const bool same = job && (*job)->state == jobs::JobState::paused && (*job)->setup.from == planned.setup.from &&
                     (*job)->part == planned.part && planned.part < planned.parts.size() &&
                     planned.parts.size() == (*job)->parts.size();
   if (same) (*job)->parts[planned.part] = planned.parts[planned.part];
@@ -140,7 +143,7 @@ bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
 
 bool MillController::abort(std::string_view by, TimePoint now) {
   events_.abort_requested(by, now);
-  if (guarded(MillGuard::void_after_abort)) setup_changed("an abort", now);
+  if (guarded(jobs::MillGuard::void_after_abort)) setup_changed("an abort", now);
   hand_.abort_requested(now);
   if (run_.number() == 0) return send_abort(now);
   run_.abort(by, now);
@@ -149,7 +152,7 @@ bool MillController::abort(std::string_view by, TimePoint now) {
 
 // A mill may still execute a job that no longer runs here.
 bool MillController::send_abort(TimePoint now) {
-  if (link_ != MillLink::open) {
+  if (link_ != jobs::MachineLink::open) {
     abort_.postpone();
     return false;
   }
@@ -157,17 +160,17 @@ bool MillController::send_abort(TimePoint now) {
   return true;
 }
 
-Result<void> MillController::cancel(JobNumber job, std::string_view by, TimePoint now) {
-  return queue_.request(job, JobEvent::cancel, by, now);
+Result<void> MillController::cancel(jobs::JobNumber job, std::string_view by, TimePoint now) {
+  return queue_.request(job, jobs::JobEvent::cancel, by, now);
 }
 
-Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint now) {
-  return queue_.request(job, JobEvent::done, by, now);
+Result<void> MillController::done(jobs::JobNumber job, std::string_view by, TimePoint now) {
+  return queue_.request(job, jobs::JobEvent::done, by, now);
 }
 
 void MillController::count_surface() { events_.surface_set(left_.count_surface()); }
 
-Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
+Result<Duration> MillController::operate(const jobs::HandAct& act, const stage::RequestContext& by, TimePoint now) {
   const Result<HandWords> words = hand_.words(act);
   if (!words) return tl::unexpected(words.error());
   const Result<void> can = check_no_job_runs("wait until it has ended")
@@ -177,7 +180,7 @@ Result<Duration> MillController::operate(const HandAct& act, const stage::Reques
   if (!can) return tl::unexpected(can.error());
   setup_changed(fmt::format("{} had the mill {}", by.who, text_of(act)), now);
   const Duration done_in = hand_.write(*words, now);
-  if (std::holds_alternative<SetSurface>(act)) {
+  if (std::holds_alternative<jobs::SetSurface>(act)) {
     count_surface();
     left_.surface_set_by_hand();
     queue_.show_left();
@@ -187,19 +190,19 @@ Result<Duration> MillController::operate(const HandAct& act, const stage::Reques
 
 void MillController::link_up(TimePoint now) {
   now_ = now;
-  link_ = MillLink::open;
+  link_ = jobs::MachineLink::open;
   reopen_ = kReopenFirst;
   events_.link_changed(link_, "", now);
-  if (abort_.phase() == AbortPhase::waits && guarded(MillGuard::abort_after_loss)) abort_.write(true, now);
+  if (abort_.phase() == AbortPhase::waits && guarded(jobs::MillGuard::abort_after_loss)) abort_.write(true, now);
 }
 
 void MillController::link_down(TimePoint now, std::string_view why) {
   now_ = now;
-  link_ = MillLink::closed;
+  link_ = jobs::MachineLink::closed;
   events_.link_changed(link_, why, now);
-  if (guarded(MillGuard::void_after_loss)) setup_changed("the line was lost", now);
+  if (guarded(jobs::MillGuard::void_after_loss)) setup_changed("the line was lost", now);
   abort_.line_lost(now);
-  if (run_.number() != 0 && settings_.at_loss == AtLoss::abort) abort_.postpone();
+  if (run_.number() != 0 && settings_.at_loss == jobs::AtLoss::abort) abort_.postpone();
   run_.line_lost(why, now);
   line_.reopen(reopen_);
   reopen_ = std::min(2 * reopen_, kReopenLast);
@@ -216,7 +219,7 @@ void MillController::recover(TimePoint now) {
   events_.internal_error(internal_error_, now);
   run_.abandon(internal_error_, now);
   hand_.abort_requested(now);
-  if (link_ == MillLink::open) link_down(now, internal_error_);
+  if (link_ == jobs::MachineLink::open) link_down(now, internal_error_);
   abort_.postpone();
   internal_error_.clear();
 }
@@ -246,7 +249,7 @@ std::optional<TimePoint> MillController::next_deadline() const {
 std::string MillController::broken_invariant() const {
   if (std::string broken = queue_.broken_invariant(); !broken.empty()) return broken;
   if (std::string broken = run_.broken_invariant(); !broken.empty()) return broken;
-  const bool open = link_ == MillLink::open;
+  const bool open = link_ == jobs::MachineLink::open;
   if (!open && run_.number() != 0) return "a job runs, and the line is closed";
   const AbortPhase phase = abort_.phase();
   const bool on_its_way = phase == AbortPhase::leaves || phase == AbortPhase::travels;

@@ -5,18 +5,18 @@
 namespace axisgate::rml1 {
 
 PlaceIndex::PlaceIndex(std::string_view text) : text_(text) {
-  Place place;
+  jobs::Place place;
   for (const char c : text) {
     if (place.offset % kStep == 0) places_.push_back(place);
-    place = behind(place, c);
+    place = after(place, c);
   }
   if (place.offset % kStep == 0) places_.push_back(place);
 }
 
-Place PlaceIndex::at(std::uint64_t offset) const {
+jobs::Place PlaceIndex::at(std::uint64_t offset) const {
   const std::size_t end = std::min<std::size_t>(offset, text_.size());
-  Place place = places_[end / kStep];
-  while (place.offset < end) place = behind(place, text_[place.offset]);
+  jobs::Place place = places_[end / kStep];
+  while (place.offset < end) place = after(place, text_[place.offset]);
   return place;
 }
 

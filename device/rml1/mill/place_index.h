@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/language/place.h"
+#include "device/jobs/place.h"
 
 namespace axisgate::rml1 {
 
@@ -16,13 +16,13 @@ class PlaceIndex {
   explicit PlaceIndex(std::string_view text);
 
   // Returns the place of a byte, or the end of the text for a byte after it.
-  Place at(std::uint64_t offset) const;
+  jobs::Place at(std::uint64_t offset) const;
 
  private:
   static constexpr std::size_t kStep = 4096;
 
   const std::string_view text_;
-  std::vector<Place> places_;  // of each kStep-th byte
+  std::vector<jobs::Place> places_;  // of each kStep-th byte
 };
 
 }  // namespace axisgate::rml1

@@ -16,7 +16,7 @@ bool moves_z(const Instruction& instruction) {
 
 }  // namespace
 
-Prefix::Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<Origin> origin)
+Prefix::Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<jobs::Origin> origin)
     : from_(from),
       origin_known_(origin.has_value()),
       machine_(profile, origin, diagnostics_, *this),
@@ -28,7 +28,7 @@ Prefix::Prefix(std::string_view job, std::uint64_t from, const Profile& profile,
 
 void Prefix::execute(const Instruction& instruction) {
   if (next_) return;
-  const Place begins = begin_of(instruction);
+  const jobs::Place begins = begin_of(instruction);
   if (begins.offset >= from_) {
     next_ = Next{begins, instruction.row->name, instruction.first};
     return;

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include "device/jobs/leaves.h"
 #include "device/rml1/check/state_judge.h"
 #include "device/rml1/language/diagnostic.h"
 #include "device/rml1/language/parser.h"
-#include "device/rml1/machine/leaves.h"
 #include "device/rml1/machine/machine.h"
 #include "device/rml1/machine/profile.h"
 
@@ -18,7 +18,7 @@ class Prefix : private ParserListener, private MachineListener {
  public:
   // First command, or set of its coordinates, at the byte `from` of the job or after it.
   struct Next {
-    Place begins;
+    jobs::Place begins;
     std::string_view name;  // of the command
     bool first = true;      // of the command's sets: it begins with its name
   };
@@ -30,13 +30,13 @@ class Prefix : private ParserListener, private MachineListener {
   };
 
   // Reads the whole job. `profile` outlives this.
-  Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<Origin> origin);
+  Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<jobs::Origin> origin);
 
   const std::optional<Next>& next() const { return next_; }
   bool has_effect() const { return has_effect_; }  // there is a command in it
   const Machine& machine() const { return machine_; }
   const Modes& modes() const { return modes_; }
-  const Leaves& leaves() const { return judge_.leaves(); }
+  const jobs::Leaves& leaves() const { return judge_.leaves(); }
   Height height() const { return height_; }
   double machine_height() const { return machine_height_; }  // of Height::machine
 
@@ -45,7 +45,7 @@ class Prefix : private ParserListener, private MachineListener {
   void quit() override;
   void moved(const Move&) override {}
   void waited(Wait, double, std::uint64_t) override {}
-  void commanded(const Point&, const Point&, bool, const Instruction&) override {}
+  void commanded(const jobs::Point&, const jobs::Point&, bool, const Instruction&) override {}
   void lifted(double, const Instruction&) override {}
 
   void take_mode(const Instruction& instruction);

@@ -26,7 +26,7 @@ std::string_view without_open_end(std::string_view body, const Dialect& dialect)
   return body.substr(0, parser.executed_size());
 }
 
-std::string wrapped(std::string_view body, const Profile& profile, std::optional<Origin> origin) {
+std::string wrapped(std::string_view body, const Profile& profile, std::optional<jobs::Origin> origin) {
   const bool turning = Timeline(body, profile, origin).turns_at_end();
   std::string text = prologue();
   text += body;
@@ -36,8 +36,8 @@ std::string wrapped(std::string_view body, const Profile& profile, std::optional
 }  // namespace
 
 PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profile& profile,
-                         std::optional<Origin> origin, const SendSettings& settings, std::uint64_t begin,
-                         std::optional<Place> from, const Approach& approach)
+                         std::optional<jobs::Origin> origin, const jobs::SendSettings& settings, std::uint64_t begin,
+                         std::optional<jobs::Place> from, const Approach& approach)
     : digest_(std::move(digest)),
       begin_(begin),
       from_(from),
@@ -61,14 +61,14 @@ std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
   return begin_ + (of_part < rest_.offset + rest_size_ ? of_part : body_size_);
 }
 
-Place PreparedJob::place(std::uint64_t bytes) const {
-  const Place in_rest = places_.at(of_rest(bytes));
+jobs::Place PreparedJob::place(std::uint64_t bytes) const {
+  const jobs::Place in_rest = places_.at(of_rest(bytes));
   return {rest_.offset + in_rest.offset, rest_.line + in_rest.line - 1,
           in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
 }
 
 // The last of the bytes that a command needs may be the first of the next one (guideline 2-3).
-PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) const {
+jobs::PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) const {
   std::uint64_t begin = std::max(least, rest_in_text_ + 1) - 1;
   while (begin < text_.size() && (is_delimiter(text_[begin]) || text_[begin] == ',')) ++begin;
   return {place(begin), place(std::max(begin, written))};
@@ -76,9 +76,10 @@ PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) con
 
 // A mill that shows how fast it is shows more than its profile knows. What comes may be moves of another kind, which no
 // mill makes faster than at full speed.
-TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured) {
+jobs::TimeRange left_of(const PreparedJob& job, const jobs::SendProgress& progress,
+                        const std::optional<jobs::MeasuredPace>& measured) {
   if (!measured) {
-    const TimeRange left = job.times().left(progress.executed_least, progress.executed_most);
+    const jobs::TimeRange left = job.times().left(progress.executed_least, progress.executed_most);
     return {left.least,
             std::max(left.least, left.most)};  // after a raise the slowest mill has executed what it was sent
   }
@@ -86,8 +87,8 @@ TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const st
     return std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(job.timeline().slowest_after(executed) * pace));
   };
-  const TimeRange full_speed{job.times().left(progress.executed_least, progress.executed_most).least,
-                             job.times().left(progress.executed_most, progress.executed_least).least};
+  const jobs::TimeRange full_speed{job.times().left(progress.executed_least, progress.executed_most).least,
+                                   job.times().left(progress.executed_most, progress.executed_least).least};
   return {std::max(full_speed.least, takes(progress.executed_most, measured->least / kUnsteady)),
           std::max(full_speed.most, takes(progress.executed_least, measured->most * kUnsteady))};
 }
