@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/core/explain.h"
 #include "device/link/clock.h"
 #include "server/access/access.h"
 #include "server/access/generation.h"
@@ -26,7 +27,6 @@
 #include "server/devices/motion_record.h"
 #include "server/devices/saved_positions.h"
 #include "server/end_signals.h"
-#include "server/explain.h"
 #include "server/gateway.h"
 #include "server/journal/journal.h"
 #include "server/kinds.h"
@@ -78,7 +78,7 @@ Result<std::uint32_t> start_generation(const server::StateDirectory& state) {
   if (!generation) return tl::unexpected(generation.error());
   if (!generation->kept) {
     server::log::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
-                      server::explain(generation->kept.error()));
+                      explain(generation->kept.error()));
   }
   return generation->number;
 }
@@ -136,7 +136,7 @@ std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirect
   auto opened = server::journal::Journal::open(path, server::boot_id(), bounds);
   if (opened) return *std::move(opened);
   server::log::error("the journal could not be opened, so motions and changes are {}: {}; then restart the daemon",
-                     config.act_without ? "not recorded" : "refused", server::explain(opened.error()));
+                     config.act_without ? "not recorded" : "refused", explain(opened.error()));
   return server::journal::Journal::unopened(path, opened.error());
 }
 
@@ -164,11 +164,11 @@ struct Kept {
 int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_signals) {
   const server::Config& config = gateway.config();
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
-  if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
+  if (!metrics_port) return complain(kExitFailed, explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
                                         .of_one = static_cast<std::size_t>(config.limits.connections)};
   const auto server = rpc::Server::start(gateway, *kept.access, *kept.positions, limits);
-  if (!server) return complain(kExitFailed, server::explain(server.error()));
+  if (!server) return complain(kExitFailed, explain(server.error()));
   if (config.network) {
     gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
     server::watch_certificate(config.network->certificate, gateway.timeouts());
@@ -189,15 +189,15 @@ int serve(const server::Config& config) {
   server::log::start();
   // The directory is locked until all its writers have ended.
   const auto state = server::StateDirectory::hold(server::default_state_directory());
-  if (!state) return complain(kExitFailed, server::explain(state.error()));
+  if (!state) return complain(kExitFailed, explain(state.error()));
   auto access = open_access(config.access, *state);
-  if (!access) return complain(kExitFailed, server::explain(access.error()));
+  if (!access) return complain(kExitFailed, explain(access.error()));
   auto positions = server::SavedPositions::open(state->file("positions"));
-  if (!positions) return complain(kExitFailed, server::explain(positions.error()));
+  if (!positions) return complain(kExitFailed, explain(positions.error()));
   const auto generation = start_generation(*state);
-  if (!generation) return complain(kExitFailed, server::explain(generation.error()));
+  if (!generation) return complain(kExitFailed, explain(generation.error()));
   auto spool = server::spool::Spool::open(state->file("spool"), bounds_of(config.jobs));
-  if (!spool) return complain(kExitFailed, server::explain(spool.error()));
+  if (!spool) return complain(kExitFailed, explain(spool.error()));
   const Kept kept{*std::move(access), *std::move(positions), *std::move(spool),
                   config.journal.kept ? open_journal(*state, config.journal) : nullptr};
   server::journal::Journal* const journal = kept.journal.get();

@@ -7,10 +7,10 @@
 #include <random>
 #include <utility>
 
+#include "device/core/explain.h"
 #include "server/devices/after_crash.h"
 #include "server/devices/mill.h"
 #include "server/devices/motion_record.h"
-#include "server/explain.h"
 #include "server/log.h"
 #include "server/recording/recording_file.h"
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "device/rml1/kind.h"
 #include "device/shrc203/kind.h"
 
 namespace axisgate::server {
@@ -11,7 +12,11 @@ DeviceKinds device_kinds() {
   static const std::array<const stage::Kind*, 1> stages = {
       &shrc203::kind(),
   };
-  return {.stages = stages, .mill = "rml1"};
+  // To add a kind of machine that is sent jobs, add a line here.
+  static const std::array<const jobs::Kind*, 1> mills = {
+      &rml1::kind(),
+  };
+  return {.stages = stages, .mills = mills};
 }
 
 }  // namespace axisgate::server

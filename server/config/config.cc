@@ -8,6 +8,7 @@
 
 #include "device/config/config_file.h"
 #include "device/config/config_table.h"
+#include "device/core/explain.h"
 #include "server/access/writers.h"
 #include "server/config/access.h"
 #include "server/config/axis.h"
@@ -20,7 +21,6 @@
 #include "server/config/name.h"
 #include "server/config/network.h"
 #include "server/config/words.h"
-#include "server/explain.h"
 
 namespace axisgate::server {
 namespace {
@@ -70,12 +70,11 @@ class ConfigReader {
     ConfigTable table(source, "device", file_, errors_);
     DeviceConfig device;
     read_name(table, device.name);
-    if (const stage::Kind* kind = read_kind(table)) {
-      device.family = read_stage_config(table, *kind, device);
+    const AnyKind kind = read_kind(table);
+    if (const auto* mill = std::get_if<const jobs::Kind*>(&kind)) {
+      device.family = read_mill(table, **mill, file_, errors_, connections_, device);
     } else {
-      MillConfig mill = read_mill(table, file_, errors_, connections_, device);
-      mill.kind = kinds_.mill;
-      device.family = std::move(mill);
+      device.family = read_stage_config(table, *std::get<const stage::Kind*>(kind), device);
     }
     device.record = read_record(table);
     constexpr int kLeast = 32;  // each of the two files begins with the 4 MiB that are kept in memory
@@ -86,13 +85,14 @@ class ConfigReader {
     return device;
   }
 
-  // Returns the kind of a stage, or null for a mill. The first kind replaces an unknown one, so that the rest of the
-  // table is checked as well.
-  const stage::Kind* read_kind(ConfigTable& table) {
-    std::vector<std::pair<std::string_view, const stage::Kind*>> known;
+  using AnyKind = std::variant<const stage::Kind*, const jobs::Kind*>;
+
+  // Returns the first kind in place of an unknown one, so that the rest of the table is checked as well.
+  AnyKind read_kind(ConfigTable& table) {
+    std::vector<std::pair<std::string_view, AnyKind>> known;
     for (const stage::Kind* kind : kinds_.stages) known.emplace_back(kind->name(), kind);
-    if (!kinds_.mill.empty()) known.emplace_back(kinds_.mill, nullptr);
-    return table.choice<const stage::Kind*>("kind", known).value_or(kinds_.stages.front());
+    for (const jobs::Kind* kind : kinds_.mills) known.emplace_back(kind->name(), kind);
+    return table.choice<AnyKind>("kind", known).value_or(kinds_.stages.front());
   }
 
   // Also sets `device`'s connection.
@@ -103,7 +103,7 @@ class ConfigReader {
     };
     const auto connection = connections_.read(table, stage.profile.baud, check, device);
     if (connection == ConnectionKind::printer) {
-      table.error("connection", "\"printer\" is for mills: nothing that answers is behind it; use \"serial\"");
+      table.error("connection", "\"printer\" is for mills: a printer device never answers; use \"serial\"");
     }
     const auto* serial = std::get_if<SerialSettings>(&device.connection);
     if (serial != nullptr && serial->flow == FlowControl::dtr_dsr) {
@@ -118,8 +118,8 @@ class ConfigReader {
     return stage;
   }
 
-  static stage::Words read_kind_settings(ConfigTable& table, const stage::Kind& kind) {
-    stage::Words settings;
+  static Words read_kind_settings(ConfigTable& table, const stage::Kind& kind) {
+    Words settings;
     for (const stage::KindSetting& setting : kind.settings()) {
       std::string& word = settings[std::string(setting.key)];
       word = setting.otherwise;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,12 +15,10 @@
 #include <vector>
 
 #include "device/config/config_error.h"
+#include "device/jobs/kind.h"
 #include "device/link/printer_port.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
-#include "device/rml1/machine/known_machine.h"
-#include "device/rml1/machine/profile.h"
-#include "device/rml1/sending/sender.h"
 #include "device/stage/kind.h"
 #include "device/stage/profile.h"
 #include "server/access/access.h"
@@ -40,47 +39,38 @@ std::string to_string(const TcpAddress& address);  // "127.0.0.1:50203", "[::1]:
 struct SimulatedConnection {
   double speed = 1;    // factor by which its time runs faster
   bool paced = false;  // a baud rate was given, so bytes take time
-  stage::Words options;
+  Words options;
 };
 
 // The kinds that a configuration may name; they live as long as the program.
 struct DeviceKinds {
   std::span<const stage::Kind* const> stages;  // the first is the default kind
-  std::string_view mill = {};                  // kind name of mills that read RML-1; empty: no mills
+  std::span<const jobs::Kind* const> mills{};  // may be empty
 };
 
 struct StageConfig {
   const stage::Kind* kind = nullptr;  // one of DeviceKinds::stages
   stage::Profile profile;             // its name and baud are unused; those of DeviceConfig count
-  stage::Words kind_settings;         // a word for each of kind->settings()
-};
-
-// Named place of the work origin.
-struct NamedOrigin {
-  std::string name;
-  std::int64_t x = 0, y = 0;        // the mill's steps from its home corner, within its work area
-  std::optional<std::int64_t> z{};  // Z0 as a machine coordinate, in steps; nullopt: as set at the mill
+  Words kind_settings;                // a word for each of kind->settings()
 };
 
 // Entry of MillConfig::station for every user of the Unix socket.
 inline constexpr std::string_view kAnybodyOnUnix = "unix";
 
-// A mill that reads RML-1 (device/rml1).
+// A machine that is sent jobs.
 struct MillConfig {
   enum class AtExit { abort, finish };
 
-  std::string_view kind;     // DeviceKinds::mill
-  std::string profile_name;  // as in the configuration: "mdx-20", or the absolute path of a file
-  rml1::Profile profile;
-  std::string profile_text;                                       // the content of the profile's file
-  std::vector<rml1::KnownMachine> others;                         // other machines for which a job may have been made
-  rml1::SendSettings sending;                                     // with the device's baud
+  const jobs::Kind* kind = nullptr;                               // one of DeviceKinds::mills
+  std::string profile_name;                                       // Model::configured_name()
+  std::shared_ptr<const jobs::Model> model;                       // never null in a configuration without errors
+  jobs::SendSettings sending;                                     // with the device's baud
   std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // callers who may confirm at the mill (Caller::who)
   std::chrono::minutes confirmation{10};                          // period for which a confirmation is valid
   std::vector<std::string> tools{"T1"};                           // at least one
-  std::vector<NamedOrigin> origins;
+  std::vector<jobs::NamedOrigin> origins;
   std::chrono::seconds busy_limit{600};  // time without a byte taken after which the mill is reported as still busy
-  rml1::AtLoss at_loss = rml1::AtLoss::abort;  // action when the line is back after a loss during a job
+  jobs::AtLoss at_loss = jobs::AtLoss::abort;  // action when the line is back after a loss during a job
   std::vector<std::string> doubts;  // possible mistakes that are no errors, for people who check the configuration
   bool holds_host_back = false;     // the line stops the host when the mill's buffer is full, so "full" loses nothing
   AtExit at_exit = AtExit::abort;   // action on a running job when the daemon ends

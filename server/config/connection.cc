@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "device/core/explain.h"
 #include "server/config/words.h"
-#include "server/explain.h"
 
 namespace axisgate::server {
 namespace {

@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
-#include "device/config/config_file.h"
-#include "device/rml1/machine/profile_files.h"
-#include "device/rml1/simulator/options.h"
 #include "server/config/caller.h"
 #include "server/config/name.h"
 #include "server/config/words.h"
-#include "server/explain.h"
 
 namespace axisgate::server {
 namespace {
 
-constexpr std::string_view kProfileRule = "the name of a profile, \"mdx-20\", or the absolute path of a file";
 constexpr std::string_view kStationRule =
     "\"unix\", everybody on this machine's Unix socket, or a caller, \"unix LOGIN\", \"cert NAME\" or \"token NAME\"";
 
@@ -28,42 +22,14 @@ constexpr std::string_view kSlackRule = "a number from 1 to 10, or \"measured\""
 
 // A number of steps has at most 24 bits (guideline 2-3).
 constexpr std::int64_t kStepsMax = 8'388'607;
-
-// Returns the path of the profile's file. Reports an error and returns an empty string if there is none.
-std::string profile_path(ConfigTable& table, const std::string& name) {
-  if (name.starts_with('/')) return name;
-  if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
-    table.error("profile", fmt::format("\"{}\" is not an absolute path; use {}", name, kProfileRule));
-    return {};
-  }
-  const auto file = rml1::profile_file(name);
-  if (file) return file->string();
-  table.error("profile", explain(file.error()));
-  return {};
-}
-
-std::optional<rml1::Profile> read_mill_profile(ConfigTable& table, const std::string& name, std::string& content,
-                                               std::vector<ConfigError>& errors) {
-  const std::string path = profile_path(table, name);
-  if (path.empty()) return std::nullopt;
-  const auto text = read_config_file(path);
-  if (!text) {
-    table.error("profile", fmt::format("{} {}; use {}", path, text.error(), kProfileRule));
-    return std::nullopt;
-  }
-  content = *text;
-  auto profile = rml1::parse_profile(content, path);
-  if (profile) return *std::move(profile);
-  errors.insert(errors.end(), profile.error().begin(), profile.error().end());
-  return std::nullopt;
-}
+constexpr jobs::OriginLimits kAnySteps{kStepsMax, kStepsMax, -kStepsMax, kStepsMax};
 
 void read_bytes(ConfigTable& table, std::string_view key, std::int64_t minimum, std::int64_t maximum,
                 std::size_t& into) {
   if (const auto bytes = table.integer(key, minimum, maximum)) into = static_cast<std::size_t>(*bytes);
 }
 
-void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
+void read_slack(ConfigTable& table, jobs::SendSettings& sending) {
   if (!table.holds_text("slack")) {
     sending.slack = table.number("slack", 1, 10, kSlackRule).value_or(sending.slack);
     return;
@@ -75,16 +41,16 @@ void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
 
 // Paced streaming takes longer than the mill needs, but loses no bytes. It is the default unless the configuration
 // states that the line stops the host. DSR is not enough: the present command is still sent to its end.
-rml1::Streaming usual_streaming(const ConfigTable& table, const DeviceConfig& device) {
+jobs::Streaming usual_streaming(const ConfigTable& table, const DeviceConfig& device) {
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   const bool said = table.has("flow_control") && serial != nullptr &&
                     (serial->flow == FlowControl::rts_cts || serial->flow == FlowControl::xon_xoff);
   const bool full = (said || std::holds_alternative<PrinterSettings>(device.connection)) && !table.has("window");
-  return full ? rml1::Streaming::full : rml1::Streaming::paced;
+  return full ? jobs::Streaming::full : jobs::Streaming::paced;
 }
 
-void read_sending(ConfigTable& table, const DeviceConfig& device, rml1::SendSettings& sending) {
-  const auto streaming = table.choice<rml1::Streaming>("streaming", kStreamings);
+void read_sending(ConfigTable& table, const DeviceConfig& device, jobs::SendSettings& sending) {
+  const auto streaming = table.choice<jobs::Streaming>("streaming", kStreamings);
   sending.streaming = streaming.value_or(usual_streaming(table, device));
   read_bytes(table, "window", 16, 4096, sending.window);
   read_bytes(table, "buffer", 16, 1 << 20, sending.buffer);
@@ -145,29 +111,15 @@ std::int64_t read_steps(ConfigTable& table, std::string_view key, std::int64_t m
   return steps.value_or(0);
 }
 
-// Returns the travel of Z in machine coordinates.
-std::pair<std::int64_t, std::int64_t> travel_of_z(const rml1::Profile& profile) {
-  const double bottom = profile.top - profile.up * std::round(profile.steps(profile.z_mm));
-  return {std::llround(std::min(profile.top, bottom)), std::llround(std::max(profile.top, bottom))};
-}
-
-std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<rml1::Profile>& profile,
-                                      std::string_view file, std::vector<ConfigError>& errors) {
-  // The result of a division such as 203.2 / 0.025 may be slightly less than the whole number.
-  constexpr double kRounding = 1e-6;
-  const auto whole_steps = [&profile](double mm) {
-    return static_cast<std::int64_t>(std::floor(profile->steps(mm) + kRounding));
-  };
-  const std::int64_t most_x = profile ? whole_steps(profile->x_mm) : kStepsMax;
-  const std::int64_t most_y = profile ? whole_steps(profile->y_mm) : kStepsMax;
+std::vector<jobs::NamedOrigin> read_origins(ConfigTable& device, const jobs::OriginLimits& limits,
+                                            std::string_view file, std::vector<ConfigError>& errors) {
   std::set<std::string> names;
-  std::vector<NamedOrigin> origins;
+  std::vector<jobs::NamedOrigin> origins;
   for (const toml::table* source : device.tables("origin")) {
     ConfigTable table(*source, "device.origin", file, errors);
     std::string name = read_origin_name(table, names);
-    const std::int64_t x = read_steps(table, "x", most_x), y = read_steps(table, "y", most_y);
-    const auto [lowest, highest] = profile ? travel_of_z(*profile) : std::pair(-kStepsMax, kStepsMax);
-    origins.push_back({std::move(name), x, y, table.integer("z", lowest, highest)});
+    const std::int64_t x = read_steps(table, "x", limits.x_most), y = read_steps(table, "y", limits.y_most);
+    origins.push_back({std::move(name), x, y, table.integer("z", limits.z_least, limits.z_most)});
     table.refuse_unknown();
   }
   return origins;
@@ -188,7 +140,7 @@ void refuse_full(ConfigTable& table, const DeviceConfig& device) {
   const bool simulated = std::holds_alternative<SimulatedConnection>(device.connection);
   table.error("streaming",
               simulated ? fmt::format(fmt::runtime(kWhy), "nothing holds the host back from the built-in simulator",
-                                      "\"paced\", or rml1-sim behind a port")
+                                      "\"paced\", or rml1-sim on a port")
                         : fmt::format(fmt::runtime(kWhy), "with flow_control = \"none\" nothing holds the host back",
                                       "\"paced\", or flow_control = \"rtscts\""));
 }
@@ -205,11 +157,11 @@ std::vector<std::string> doubts_about(const ConfigTable& table, const DeviceConf
   std::vector<std::string> doubts;
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   if (serial == nullptr) return doubts;
-  if (!table.has("baud") && !mill.profile.baud) {
+  if (!table.has("baud") && !mill.model->baud()) {
     doubts.push_back(
         fmt::format("no baud rate is given, and {} baud are assumed: the {} is usually connected by USB "
                     "(connection = \"printer\"); for a serial line set `baud` as at the mill",
-                    device.baud, mill.profile.name));
+                    device.baud, mill.model->name()));
   }
   if (!table.has("flow_control")) {
     doubts.emplace_back("`flow_control` is not given: RTS/CTS is assumed, and jobs are paced; set it as at the mill");
@@ -221,20 +173,17 @@ std::vector<std::string> doubts_about(const ConfigTable& table, const DeviceConf
 
 }  // namespace
 
-MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
-                     ConnectionReader& connections, DeviceConfig& device) {
+MillConfig read_mill(ConfigTable& table, const jobs::Kind& kind, std::string_view file,
+                     std::vector<ConfigError>& errors, ConnectionReader& connections, DeviceConfig& device) {
   MillConfig mill;
-  const std::optional<std::string> name = table.text("profile");
-  if (!name && !table.has("profile")) table.missing("profile", kProfileRule);
-  std::optional<rml1::Profile> profile;
-  if (name) profile = read_mill_profile(table, *name, mill.profile_text, errors);
-  mill.profile_name = name.value_or("");
-  mill.profile = profile.value_or(rml1::Profile{});
-  mill.others = rml1::known_machines();
-  const auto check = [](std::string_view option, std::string_view value) {
-    return rml1::simulator::Options().set(option, value);
+  mill.kind = &kind;
+  mill.model = kind.read_model(table, errors);
+  if (mill.model) mill.profile_name = mill.model->configured_name();
+  const auto check = [&kind](std::string_view option, std::string_view value) {
+    return kind.check_option(option, value);
   };
-  const auto connection = connections.read(table, mill.profile.baud.value_or(mill.sending.baud), check, device);
+  const std::optional<int> usual_baud = mill.model ? mill.model->baud() : std::nullopt;
+  const auto connection = connections.read(table, usual_baud.value_or(mill.sending.baud), check, device);
   if (!connection || *connection == ConnectionKind::simulated) {
     mill.slower_percent = table.number("slower", 0, 1000, "percent from 0 to 1000").value_or(mill.slower_percent);
   }
@@ -242,7 +191,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   read_sending(table, device, mill.sending);
   mill.sending.baud = device.baud;
   mill.holds_host_back = holds_host_back(device);
-  if (connection && mill.sending.streaming == rml1::Streaming::full && !mill.holds_host_back)
+  if (connection && mill.sending.streaming == jobs::Streaming::full && !mill.holds_host_back)
     refuse_full(table, device);
   read_station(table, mill.station);
   if (const auto minutes = table.integer("confirmation_minutes", 1, 1440)) {
@@ -250,10 +199,10 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   }
   read_tools(table, mill.tools);
   if (const auto limit = table.integer("busy_limit_s", 10, 86'400)) mill.busy_limit = std::chrono::seconds(*limit);
-  mill.at_loss = table.choice<rml1::AtLoss>("at_loss", kMillAtLoss).value_or(mill.at_loss);
+  mill.at_loss = table.choice<jobs::AtLoss>("at_loss", kMillAtLoss).value_or(mill.at_loss);
   mill.at_exit = table.choice<MillConfig::AtExit>("at_exit", kMillAtExit).value_or(mill.at_exit);
-  mill.origins = read_origins(table, profile, file, errors);
-  mill.doubts = doubts_about(table, device, mill);
+  mill.origins = read_origins(table, mill.model ? mill.model->origin_limits() : kAnySteps, file, errors);
+  if (mill.model) mill.doubts = doubts_about(table, device, mill);
   return mill;
 }
 

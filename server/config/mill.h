@@ -12,7 +12,7 @@ namespace axisgate::server {
 
 // Reads all keys except the kind, and sets `device`'s connection. Without the key, the baud is that of the mill's
 // profile. Errors in the profile name the profile's own file and line.
-MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
-                     ConnectionReader& connections, DeviceConfig& device);
+MillConfig read_mill(ConfigTable& table, const jobs::Kind& kind, std::string_view file,
+                     std::vector<ConfigError>& errors, ConnectionReader& connections, DeviceConfig& device);
 
 }  // namespace axisgate::server

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <string>
 
+#include "device/core/explain.h"
 #include "server/config/default_socket.h"
 #include "server/connections/certificates.h"
-#include "server/explain.h"
 
 namespace axisgate::server {
 namespace {

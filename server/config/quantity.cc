@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "server/explain.h"
+#include "device/core/explain.h"
 
 namespace axisgate::server {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "device/config/config_file.h"
+#include "device/core/explain.h"
 #include "device/core/quantity.h"
 #include "server/config/quantity.h"
 #include "server/config/words.h"
-#include "server/explain.h"
 
 namespace axisgate::server {
 namespace {

@@ -169,7 +169,7 @@ void write(TomlWriter& out, int number, const stage::AxisProfile& axis) {
   }
 }
 
-void write(TomlWriter& out, const stage::Kind& kind, const stage::Words& settings) {
+void write(TomlWriter& out, const stage::Kind& kind, const Words& settings) {
   for (const stage::KindSetting& setting : kind.settings()) {
     const std::string& word = settings.at(std::string(setting.key));
     out.key(setting.key, setting.words.empty() ? word : in_quotes(word));
@@ -177,7 +177,7 @@ void write(TomlWriter& out, const stage::Kind& kind, const stage::Words& setting
 }
 
 std::string_view kind_of(const StageConfig& stage) { return stage.kind == nullptr ? "" : stage.kind->name(); }
-std::string_view kind_of(const MillConfig& mill) { return mill.kind; }
+std::string_view kind_of(const MillConfig& mill) { return mill.kind->name(); }
 
 void write(TomlWriter& out, const StageConfig& stage, const DeviceConfig&) {
   const stage::Profile& profile = stage.profile;
@@ -208,7 +208,7 @@ void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) 
   out.number("busy_limit_s", mill.busy_limit.count());
   out.key("at_loss", word(kMillAtLoss, mill.at_loss));
   out.key("at_exit", word(kMillAtExit, mill.at_exit));
-  for (const NamedOrigin& origin : mill.origins) {
+  for (const jobs::NamedOrigin& origin : mill.origins) {
     out.table("[[device.origin]]");
     out.text("name", origin.name);
     out.number("x", origin.x);

@@ -28,12 +28,12 @@ inline constexpr std::array<std::pair<std::string_view, stage::AtExit>, 2> kAtEx
     {{"stop", stage::AtExit::stop}, {"finish", stage::AtExit::finish}}};
 inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> kAtLeaseEnd = {
     {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
-inline constexpr std::array<std::pair<std::string_view, rml1::Streaming>, 2> kStreamings = {
-    {{"paced", rml1::Streaming::paced}, {"full", rml1::Streaming::full}}};
+inline constexpr std::array<std::pair<std::string_view, jobs::Streaming>, 2> kStreamings = {
+    {{"paced", jobs::Streaming::paced}, {"full", jobs::Streaming::full}}};
 // Word for `slack` instead of a number.
 inline constexpr std::string_view kMeasured = "measured";
-inline constexpr std::array<std::pair<std::string_view, rml1::AtLoss>, 2> kMillAtLoss = {
-    {{"abort", rml1::AtLoss::abort}, {"leave", rml1::AtLoss::leave}}};
+inline constexpr std::array<std::pair<std::string_view, jobs::AtLoss>, 2> kMillAtLoss = {
+    {{"abort", jobs::AtLoss::abort}, {"leave", jobs::AtLoss::leave}}};
 inline constexpr std::array<std::pair<std::string_view, MillConfig::AtExit>, 2> kMillAtExit = {
     {{"abort", MillConfig::AtExit::abort}, {"finish", MillConfig::AtExit::finish}}};
 

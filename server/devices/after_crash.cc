@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "device/core/explain.h"
 #include "device/link/clock.h"
 #include "server/access/access.h"
-#include "server/explain.h"
 #include "server/journal/answers.h"
 #include "server/journal/body.h"
 #include "server/log.h"

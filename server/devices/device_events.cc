@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "server/explain.h"
+#include "device/core/explain.h"
 #include "server/log.h"
 
 namespace axisgate::server {

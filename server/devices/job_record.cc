@@ -22,12 +22,12 @@ constexpr std::size_t kNameSize = 104;  // longest name in the spool, and a term
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint64_t kLostSurfaces = 1'000'000;  // more than can be sent between two boots
 
-std::uint64_t bits_of(const rml1::Leaves& leaves) {
+std::uint64_t bits_of(const jobs::Leaves& leaves) {
   return (leaves.surface ? 1u : 0u) | (leaves.revolutions ? 2u : 0u) | (leaves.rotation ? 4u : 0u) |
          (leaves.tool ? 8u : 0u);
 }
 
-rml1::Leaves leaves_of(std::uint64_t bits) {
+jobs::Leaves leaves_of(std::uint64_t bits) {
   return {(bits & 1u) != 0, (bits & 2u) != 0, (bits & 4u) != 0, (bits & 8u) != 0};
 }
 
@@ -73,9 +73,9 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   const bool known = content->mark == kMark;
   const bool same_boot = !boot.empty() && text_in(content->boot) == boot;
   const std::uint64_t state = content->state;
-  if (known && content->job != 0 && state < rml1::kJobStates) {
+  if (known && content->job != 0 && state < jobs::kJobStates) {
     before_ = LastJob{.job = content->job,
-                      .state = static_cast<rml1::JobState>(state),
+                      .state = static_cast<jobs::JobState>(state),
                       .through = same_boot ? content->through.load() : kAll,
                       .part = content->part,
                       .from = content->from,
@@ -98,25 +98,25 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
 
 JobRecord::~JobRecord() { ::munmap(content_, sizeof(Content)); }
 
-void JobRecord::begin(const rml1::Job& job) {
+void JobRecord::begin(const jobs::Job& job) {
   content_->job = 0;
   content_->through = next_byte(job);
   content_->part = job.part;
   content_->from = next_byte(job);
   content_->sent_least = next_byte(job);
-  content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
+  content_->state = static_cast<std::uint64_t>(jobs::JobState::running);
   content_->leaves = bits_of(job.leaves);
   set_text(content_->name, job.name);
   content_->job = job.number;
 }
 
-void JobRecord::going_to(const rml1::WrittenRange& sent) {
+void JobRecord::going_to(const jobs::WrittenRange& sent) {
   content_->sent_least = std::max<std::uint64_t>(content_->sent_least, sent.least);
   content_->through = sent.most;
 }
 
 // Writes part and place first: if the daemon is killed in between, the part may have begun, but never runs again.
-void JobRecord::set_state(const rml1::Job& job) {
+void JobRecord::set_state(const jobs::Job& job) {
   if (content_->job != job.number) return;
   content_->part = job.part;
   content_->from = next_byte(job);

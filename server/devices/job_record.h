@@ -9,19 +9,19 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 
 namespace axisgate::server {
 
 struct LastJob {
-  rml1::JobNumber job = 0;
-  rml1::JobState state = rml1::JobState::running;
+  jobs::JobNumber job = 0;
+  jobs::JobState state = jobs::JobState::running;
   std::uint64_t through = 0;     // bytes of the job that may have been written to the line
   std::size_t part = 0;          // value of Job::part
   std::uint64_t from = 0;        // value of next_byte()
   std::uint64_t sent_least = 0;  // `least` of Job::written, or the value at the time of the last write
   std::string name{};            // value of Job::name, for messages about what the job leaves
-  rml1::Leaves leaves{};
+  jobs::Leaves leaves{};
 };
 
 // Runs on the device's strand. The file is mapped like that of MotionRecord: no call waits for the disk, and a crash of
@@ -43,11 +43,11 @@ class JobRecord {
   std::uint64_t surfaces() const;
 
   // Records the start of a job, of its next part, or of the rest of a part.
-  void begin(const rml1::Job& job);
+  void begin(const jobs::Job& job);
   // Records that bytes up to sent.most are written next, and that the mill has those up to sent.least.
-  void going_to(const rml1::WrittenRange& sent);
+  void going_to(const jobs::WrittenRange& sent);
   // Records the job's state and part. Has no effect unless the job is the last that was begun.
-  void set_state(const rml1::Job& job);
+  void set_state(const jobs::Job& job);
   void set_abort_waits(bool waits);
   void set_surfaces(std::uint64_t surfaces);
 

@@ -11,8 +11,6 @@
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "device/link/tcp_socket.h"
-#include "device/rml1/simulator/control.h"
-#include "device/rml1/simulator/simulator.h"
 #include "server/log.h"
 
 namespace axisgate::server {
@@ -60,39 +58,25 @@ std::unique_ptr<Line> make_tcp(const TcpSettings& settings, int baud) {
                                        fmt::format("tcp {} at {} baud", to_string(settings), baud));
 }
 
-struct Simulated {
-  std::unique_ptr<LineMachine> device;
-  // Performs an action of a person at the device. `now` is the device's time.
-  std::function<Result<std::string>(std::string_view command, TimePoint now)> operate;
-};
-
-Simulated simulate(const StageConfig& stage, const stage::Words& options, ByteLink& line) {
-  auto device = stage.kind->make_simulation(options, line);
-  auto operate = [at = device.get()](std::string_view command, TimePoint now) { return at->operate(command, now); };
-  return {std::move(device), operate};
+std::unique_ptr<Simulation> simulate(const StageConfig& stage, const Words& options, ByteLink& line) {
+  return stage.kind->make_simulation(options, line);
 }
 
-Simulated simulate(const MillConfig& mill, const stage::Words& options, ByteLink& line) {
-  using namespace rml1::simulator;
-  Options chosen;
-  for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
-  const MillSetup setup{mill.profile, std::move(chosen), mill.sending.buffer, Flow::none, mill.slower_percent};
-  auto device = std::make_unique<Simulator>(setup, line);
-  auto operate = [at = device.get()](std::string_view command, TimePoint now) { return control(*at, command, now); };
-  return {std::move(device), operate};
+std::unique_ptr<Simulation> simulate(const MillConfig& mill, const Words& options, ByteLink& line) {
+  return mill.model->make_simulation(options, mill.sending.buffer, mill.slower_percent, line);
 }
 
 class SimulatedLine final : public Line {
  public:
   // `simulate` is called once, in the constructor.
-  SimulatedLine(Pacing pacing, const std::function<Simulated(ByteLink&)>& simulate, Strand strand,
+  SimulatedLine(Pacing pacing, const std::function<std::unique_ptr<Simulation>(ByteLink&)>& simulate, Strand strand,
                 std::string description)
       : description_(std::move(description)),
         runner_(std::move(strand)),
         device_(pacing, runner_, [this, &simulate](ByteLink& inside) {
-          Simulated simulated = simulate(inside);
-          operate_ = std::move(simulated.operate);
-          return std::move(simulated.device);
+          auto simulation = simulate(inside);
+          simulation_ = simulation.get();
+          return simulation;
         }) {
     runner_.attach(device_);
   }
@@ -104,14 +88,14 @@ class SimulatedLine final : public Line {
 
   void operate(std::string command, OnOperated done) override {
     runner_.post([this, command = std::move(command), done = std::move(done)](TimePoint now) {
-      device_.touch(now, [&](TimePoint device_now) { done(operate_(command, device_now)); });
+      device_.touch(now, [&](TimePoint device_now) { done(simulation_->operate(command, device_now)); });
     });
   }
 
  private:
   const std::string description_;
   Runner runner_;
-  decltype(Simulated::operate) operate_;
+  Simulation* simulation_ = nullptr;  // owned by device_
   PacedLine device_;
 };
 

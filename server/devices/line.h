@@ -24,8 +24,8 @@ class Line {
   virtual void start() = 0;
   virtual void shutdown() = 0;
 
-  // Performs an action of a person at a simulated device and reports the result (stage::Simulation,
-  // device/rml1/simulator/control.h). `done` is called on the simulator's strand, or at once with invalid_request if
+  // Performs an action of a person at a simulated device and reports the result
+  // (Simulation::operate()). `done` is called on the simulator's strand, or at once with invalid_request if
   // the device is not simulated. After shutdown() the action is dropped. May be called from any thread.
   using OnOperated = std::function<void(const Result<std::string>& answer)>;
   virtual void operate(std::string command, OnOperated done);

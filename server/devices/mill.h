@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/mill/mill_controller.h"
+#include "device/jobs/machine.h"
 #include "server/config/config.h"
 #include "server/devices/device.h"
 #include "server/devices/job_record.h"
@@ -27,19 +27,19 @@ class thread_pool;
 namespace axisgate::server {
 
 struct MillNow {
-  rml1::MillLink link = rml1::MillLink::closed;
+  jobs::MachineLink link = jobs::MachineLink::closed;
   std::string why_closed;       // text for people; empty: the line is open, or was never opened
-  std::vector<rml1::Job> jobs;  // value of MillController::jobs()
-  std::optional<rml1::RunningJob> running;
-  std::optional<rml1::MeasuredPace> measured_pace;
+  std::vector<jobs::Job> jobs;  // value of Machine::jobs()
+  std::optional<jobs::RunningJob> running;
+  std::optional<jobs::MeasuredPace> measured_pace;
   Moment clock;                    // clock by which the times are shown
-  std::optional<rml1::Job> ended;  // job that left the queue last
-  std::uint64_t surfaces = 0;      // value of MillController::surfaces()
+  std::optional<jobs::Job> ended;  // job that left the queue last
+  std::uint64_t surfaces = 0;      // value of Machine::surfaces()
 };
 
-class Mill final : public Device, private rml1::MillEvents {
+class Mill final : public Device, private jobs::MachineEvents {
  public:
-  using Controller = rml1::MillController;
+  using Controller = jobs::Machine;
 
   // `config`, `bus`, `metrics`, `thread`, `lease_tokens` and `spool` must outlive the mill. `record` and `journal` may
   // be null.
@@ -49,12 +49,12 @@ class Mill final : public Device, private rml1::MillEvents {
   ~Mill() override;
 
   // These members may be called from any thread.
-  std::string_view kind_name() const override { return config_.kind; }
+  std::string_view kind_name() const override { return config_.kind->name(); }
   const MillConfig& config() const { return config_; }
   Newest<MillNow>& newest() { return newest_; }
   spool::Spool& spool() const { return spool_; }
   // Drops a job that was sent twice and never was in the queue.
-  void drop_spooled(rml1::JobNumber job);
+  void drop_spooled(jobs::JobNumber job);
 
   // Calls `then` once the spool has kept all changes of jobs up to now, so that killing the daemon cannot undo them.
   // Failures of the disk are logged. Call it on the strand; `then` runs on the spool's thread, at the latest while the
@@ -63,7 +63,7 @@ class Mill final : public Device, private rml1::MillEvents {
 
   // Runs the request on the device's strand. After shutdown() `too_late` is called instead. May be called from any
   // thread.
-  using Request = std::function<void(rml1::MillController&, TimePoint)>;
+  using Request = std::function<void(jobs::Machine&, TimePoint)>;
   void post(Request request, std::function<void()> too_late = {});
 
   // Call on the strand only.
@@ -81,21 +81,21 @@ class Mill final : public Device, private rml1::MillEvents {
   static constexpr Duration kPublishPause = std::chrono::milliseconds(500);
 
  private:
-  void link_changed(rml1::MillLink link, std::string_view why, TimePoint now) override;
-  void job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
-  void rank_changed(const rml1::Job& job) override { keep(job); }
+  void link_changed(jobs::MachineLink link, std::string_view why, TimePoint now) override;
+  void job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
+  void rank_changed(const jobs::Job& job) override { keep(job); }
   void surface_set(std::uint64_t surfaces) override;
   void internal_error(std::string_view what, TimePoint now) override;
-  void sender_changed(const rml1::RunningJob& running, TimePoint now) override;
-  void about_to_write(rml1::JobNumber job, const rml1::WrittenRange& sent) override;
-  void written(std::string_view bytes, rml1::JobNumber job) override;
+  void sender_changed(const jobs::RunningJob& running, TimePoint now) override;
+  void about_to_write(jobs::JobNumber job, const jobs::WrittenRange& sent) override;
+  void written(std::string_view bytes, jobs::JobNumber job) override;
   void abort_requested(std::string_view by, TimePoint now) override;
 
   void restore_jobs();
-  void plan_again(rml1::Job& job);
-  void keep(const rml1::Job& job);
-  void plan_rest(const rml1::Job& job);
-  void note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now);
+  void plan_again(jobs::Job& job);
+  void keep(const jobs::Job& job);
+  void plan_rest(const jobs::Job& job);
+  void note(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint now);
   void publish_fact(Fact fact, TimePoint now);
   void after_call();
   void publish(TimePoint at);
@@ -108,11 +108,11 @@ class Mill final : public Device, private rml1::MillEvents {
   journal::Journal* const journal_;
   Newest<MillNow> newest_;
   MillMetrics metrics_;
-  rml1::MillController controller_;
+  const std::unique_ptr<jobs::Machine> controller_;
   RepeatedStops repeated_stops_;
   bool changed_ = true;                     // since publish()
   std::optional<stage::LinkChanged> link_;  // connecting to a line that stays closed is tried again and again
-  std::optional<rml1::Job> ended_;          // value of MillNow::ended
+  std::optional<jobs::Job> ended_;          // value of MillNow::ended
   std::uint64_t writes_ = 0;                // number of recorded writes
   TimePoint published_{};
   TimePoint abort_at_{};              // end of the time that a job may still run while the daemon ends

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "device/core/explain.h"
 #include "server/events/wall_time.h"
-#include "server/explain.h"
 #include "server/log.h"
 #include "server/spool/sha256.h"
 
@@ -20,33 +20,33 @@ Json facts_in(const spool::Job& spooled) {
   return facts.is_object() ? facts : Json::object();
 }
 
-std::optional<rml1::Place> place_in(const Json& facts) {
+std::optional<jobs::Place> place_in(const Json& facts) {
   const Json from = facts.value("from", Json::array());
-  return from.size() == 3 ? std::optional(rml1::Place{from[0], from[1], from[2]}) : std::nullopt;
+  return from.size() == 3 ? std::optional(jobs::Place{from[0], from[1], from[2]}) : std::nullopt;
 }
 
-Json facts_of(const rml1::Place& place) { return {place.offset, place.line, place.column}; }
+Json facts_of(const jobs::Place& place) { return {place.offset, place.line, place.column}; }
 
-std::optional<rml1::WrittenRange> written_in(const Json& facts) {
+std::optional<jobs::WrittenRange> written_in(const Json& facts) {
   const Json written = facts.value("written", Json::array());
-  return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
+  return written.size() == 2 ? std::optional(jobs::WrittenRange{written[0], written[1]}) : std::nullopt;
 }
 
 bool are_numbers(const Json& all, std::size_t count) {
   return all.is_array() && all.size() == count && std::ranges::all_of(all, &Json::is_number);
 }
 
-std::optional<rml1::PlaceRange> executed_in(const Json& facts) {
+std::optional<jobs::PlaceRange> executed_in(const Json& facts) {
   const Json executed = facts.value("executed", Json::array());
   const bool known = executed.size() == 2 && are_numbers(executed[0], 3) && are_numbers(executed[1], 3);
   if (!known) return std::nullopt;
-  const auto place = [](const Json& one) { return rml1::Place{one[0], one[1], one[2]}; };
-  return rml1::PlaceRange{place(executed[0]), place(executed[1])};
+  const auto place = [](const Json& one) { return jobs::Place{one[0], one[1], one[2]}; };
+  return jobs::PlaceRange{place(executed[0]), place(executed[1])};
 }
 
 // Returns a part without a plan if it was kept without one.
-rml1::JobPart part_in(const Json& facts) {
-  rml1::JobPart part{facts.value("tool", ""), facts.value("end", std::uint64_t{0})};
+jobs::JobPart part_in(const Json& facts) {
+  jobs::JobPart part{facts.value("tool", ""), facts.value("end", std::uint64_t{0})};
   const Json takes = facts.value("takes_ns", Json::array()), run_on = facts.value("run_on", Json::array());
   if (!are_numbers(takes, 2) || !are_numbers(run_on, 4)) return part;
   part.takes = {Duration(takes[0]), Duration(takes[1])};
@@ -54,57 +54,49 @@ rml1::JobPart part_in(const Json& facts) {
   return part;
 }
 
-Json facts_of(const rml1::JobPart& part) {
-  const rml1::RunOn& run_on = part.run_on;
+Json facts_of(const jobs::JobPart& part) {
+  const jobs::RunOn& run_on = part.run_on;
   return {{"tool", part.tool},
           {"end", part.end},
           {"takes_ns", {part.takes.least.count(), part.takes.most.count()}},
           {"run_on", {run_on.at_most, run_on.if_held, run_on.longest.count(), run_on.mm}}};
 }
 
-Json facts_of(const rml1::Reach& reach) { return reach.any ? Json{reach.lowest, reach.highest} : Json::array(); }
+Json facts_of(const jobs::Reach& reach) { return reach.any ? Json{reach.lowest, reach.highest} : Json::array(); }
 
-Json facts_of(const rml1::Bounds& bounds) { return {facts_of(bounds.x), facts_of(bounds.y), facts_of(bounds.z)}; }
+Json facts_of(const jobs::Bounds& bounds) { return {facts_of(bounds.x), facts_of(bounds.y), facts_of(bounds.z)}; }
 
-rml1::Reach reach_in(const Json& facts) {
-  return are_numbers(facts, 2) ? rml1::Reach{true, facts[0], facts[1]} : rml1::Reach();
+jobs::Reach reach_in(const Json& facts) {
+  return are_numbers(facts, 2) ? jobs::Reach{true, facts[0], facts[1]} : jobs::Reach();
 }
 
-rml1::Bounds bounds_in(const Json& facts) {
+jobs::Bounds bounds_in(const Json& facts) {
   if (!facts.is_array() || facts.size() != 3) return {};
   return {reach_in(facts[0]), reach_in(facts[1]), reach_in(facts[2])};
 }
 
-std::vector<rml1::Warning> accepted_in(const Json& facts) {
-  std::vector<rml1::Warning> accepted;
+std::vector<std::string> accepted_in(const Json& facts) {
+  std::vector<std::string> accepted;
   for (const Json& name : facts) {
-    const auto warning = name.is_string() ? rml1::warning_named(name.get<std::string>()) : std::nullopt;
-    if (warning) accepted.push_back(*warning);
+    if (name.is_string()) accepted.push_back(name);
   }
   return accepted;
 }
 
-// Returns the bytes that the mill may have been sent.
-std::string_view sent_of(std::string_view body, const rml1::Job& job) {
-  if (job.executed) return body.substr(0, job.executed->most.offset);
-  const bool known = job.written && job.written->most >= part_begin(job);
-  return known ? body.substr(0, job.written->most - part_begin(job)) : body;
-}
-
-Result<std::string> part_bytes(const spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+Result<std::string> part_bytes(const spool::Spool& spool, const std::string& device, const jobs::Job& job) {
   const std::uint64_t begin = part_begin(job), end = part_end(job);
   return spool.read(device, job.number).map([&](const std::string& all) { return all.substr(begin, end - begin); });
 }
 
-std::optional<rml1::Origin> check_origin(const MillConfig& config, const rml1::Job& job) {
-  const auto named = std::ranges::find(config.origins, job.setup.origin, &NamedOrigin::name);
-  return named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
+std::optional<jobs::Origin> check_origin(const MillConfig& config, const jobs::Job& job) {
+  const auto named = std::ranges::find(config.origins, job.setup.origin, &jobs::NamedOrigin::name);
+  return named == config.origins.end() ? std::nullopt : std::optional(config.model->place_of(*named));
 }
 
 // Returns PAUSED only if the place in the spool is the recorded one. The place may not have reached the spool before
 // the daemon ended, or may belong to an earlier rest; the place to continue is then unknown.
-rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
-  using enum rml1::JobState;
+jobs::JobState state_as_left(const jobs::Job& job, const LastJob& last) {
+  using enum jobs::JobState;
   const bool between = last.state == tool_change || last.state == confirmed;
   if (last.state == fed) return fed;
   if (job.setup.from && next_byte(job) == last.from && (between || last.state == paused)) return paused;
@@ -113,21 +105,21 @@ rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
 
 // Returns the range of bytes of the part within which the executed bytes end. Bytes that the mill was sent and did not
 // lose are executed, except those that its buffer may contain.
-rml1::WrittenRange executed_of(const MillConfig& config, const rml1::Job& job) {
+jobs::WrittenRange executed_of(const MillConfig& config, const jobs::Job& job) {
   if (job.executed) return {job.executed->least.offset, job.executed->most.offset};
   const std::uint64_t begin = part_begin(job);
-  const rml1::WrittenRange sent = job.written.value_or(rml1::WrittenRange{next_byte(job), next_byte(job)});
+  const jobs::WrittenRange sent = job.written.value_or(jobs::WrittenRange{next_byte(job), next_byte(job)});
   if (sent.least == sent.most) return {sent.least - begin, sent.most - begin};
   const std::uint64_t unread = config.sending.flow_control ? config.sending.buffer : sent.least;
   return {sent.least - std::min<std::uint64_t>(unread, sent.least - begin) - begin, sent.most - begin};
 }
 
-tl::unexpected<Problem> no_line_named(std::string_view body, const MillConfig& config, const rml1::Job& job) {
+tl::unexpected<Problem> no_line_named(std::string_view body, const MillConfig& config, const jobs::Job& job) {
   const auto text = [&](std::uint64_t byte) {
-    const rml1::Place place = rml1::place_of(body, byte);
+    const jobs::Place place = jobs::place_of(body, byte);
     return fmt::format("line {}, column {}", place.line, place.column);
   };
-  const rml1::WrittenRange executed = executed_of(config, job);
+  const jobs::WrittenRange executed = executed_of(config, job);
   const bool exact = executed.least == executed.most;
   return fail(Reason::invalid_request,
               fmt::format("no line is named from which {} continues: what the mill has executed of it ends at {}{}",
@@ -138,9 +130,9 @@ tl::unexpected<Problem> no_line_named(std::string_view body, const MillConfig& c
 
 }  // namespace
 
-std::string facts_of(const rml1::Job& job) {
+std::string facts_of(const jobs::Job& job) {
   Json parts = Json::array();
-  for (const rml1::JobPart& part : job.parts) parts.push_back(facts_of(part));
+  for (const jobs::JobPart& part : job.parts) parts.push_back(facts_of(part));
   Json facts{{"profile", job.setup.profile},
              {"origin", job.setup.origin},
              {"parts", parts},
@@ -153,11 +145,11 @@ std::string facts_of(const rml1::Job& job) {
                {"tool", job.leaves.tool}}}};
   facts["driven_mm"] = facts_of(job.extent.driven);
   facts["cut_mm"] = facts_of(job.extent.cut);
-  for (const rml1::Warning warning : job.accepted) facts["accepted"].push_back(rml1::name(warning));
+  for (const std::string& warning : job.accepted) facts["accepted"].push_back(warning);
   if (job.stock) facts["stock"] = {job.stock->x, job.stock->y, job.stock->z};
   facts["checked_for"] = job.checked_for;
   facts["planned_for"] = job.planned_for;
-  if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
+  if (job.streaming) facts["streaming"] = *job.streaming == jobs::Streaming::full ? "full" : "paced";
   if (job.setup.from) facts["from"] = facts_of(*job.setup.from);
   if (job.written) facts["written"] = {job.written->least, job.written->most};
   if (job.executed) facts["executed"] = {facts_of(job.executed->least), facts_of(job.executed->most)};
@@ -167,10 +159,10 @@ std::string facts_of(const rml1::Job& job) {
   return facts.dump();
 }
 
-rml1::Job job_of(const spool::Job& spooled) {
+jobs::Job job_of(const spool::Job& spooled) {
   const Json facts = facts_in(spooled);
   const Json leaves = facts.value("leaves", Json::object());
-  rml1::Job job{.number = spooled.id,
+  jobs::Job job{.number = spooled.id,
                 .name = spooled.name,
                 .owner = spooled.who,
                 .setup = {spooled.sha256, facts.value("profile", ""), facts.value("origin", ""), "", {}, {}},
@@ -184,7 +176,7 @@ rml1::Job job_of(const spool::Job& spooled) {
   }
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
   if (const std::string streaming = facts.value("streaming", ""); !streaming.empty()) {
-    job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
+    job.streaming = streaming == "full" ? jobs::Streaming::full : jobs::Streaming::paced;
   }
   job.checked_for = facts.value("checked_for", "");
   job.planned_for = facts.value("planned_for", "");
@@ -192,74 +184,68 @@ rml1::Job job_of(const spool::Job& spooled) {
   job.accepted = accepted_in(facts.value("accepted", Json::array()));
   const Json stock = facts.value("stock", Json::array());
   if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
-    job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
+    job.stock = jobs::Stock{stock[0], stock[1], stock[2]};
   }
-  job.continues = facts.value("continues", rml1::JobNumber{0});
+  job.continues = facts.value("continues", jobs::JobNumber{0});
   job.surfaces = facts.value("surfaces", std::uint64_t{0});
   job.setup.from = place_in(facts);
   if (job.setup.from) job.written = written_in(facts);
   if (is_fresh_rest(job)) return job;
-  if (job.part > 0) job.state = rml1::JobState::tool_change;
-  if (job.setup.from) job.state = rml1::JobState::paused;
+  if (job.part > 0) job.state = jobs::JobState::tool_change;
+  if (job.setup.from) job.state = jobs::JobState::paused;
   return job;
 }
 
-std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string& device) {
-  std::vector<rml1::Job> jobs;
+std::vector<jobs::Job> unended_jobs(const spool::Spool& spool, const std::string& device) {
+  std::vector<jobs::Job> jobs;
   for (const spool::Job& spooled : spool.list(device)) {
     if (!spooled.ended) jobs.push_back(job_of(spooled));
   }
   return jobs;
 }
 
-rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
+jobs::Job as_it_was_left(jobs::Job job, const LastJob& last) {
   if (last.part != job.part && last.part < job.parts.size()) go_to_part(job, last.part);
   job.state = state_as_left(job, last);
-  if (job.state == rml1::JobState::paused_unknown) {
-    job.written = rml1::WrittenRange{std::min(last.sent_least, job.bytes), std::min(last.through, job.bytes)};
+  if (job.state == jobs::JobState::paused_unknown) {
+    job.written = jobs::WrittenRange{std::min(last.sent_least, job.bytes), std::min(last.through, job.bytes)};
   }
   return job;
 }
 
-void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+void keep_facts(spool::Spool& spool, const std::string& device, const jobs::Job& job) {
   const auto kept = spool.set_facts(device, job.number, facts_of(job));
   if (!kept) log::warn("{}", explain(kept.error()));
 }
 
-void end_spooled(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+void end_spooled(spool::Spool& spool, const std::string& device, const jobs::Job& job) {
   const auto ended = spool.end(device, job.number, calendar_now(), facts_of(job));
   if (!ended) log::warn("{}", explain(ended.error()));
 }
 
-Result<rml1::Job> ended_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber number) {
+Result<jobs::Job> ended_job(const spool::Spool& spool, const std::string& device, jobs::JobNumber number) {
   const auto jobs = spool.list(device);
   const auto found = std::ranges::find(jobs, number, &spool::Job::id);
   if (found == jobs.end()) {
     return fail(Reason::not_found, fmt::format("job {} of {} is not kept", number, device),
                 "`axisctl history` shows what became of it; send its file again");
   }
-  rml1::Job job = job_of(*found);
+  jobs::Job job = job_of(*found);
   const Json facts = facts_in(*found);
   if (!found->ended) {
     return fail(Reason::wrong_mode, fmt::format("{} has not ended", text_of(job)),
                 "`axisctl mill queue` shows what can be done with it");
   }
-  job.state = rml1::job_state_named(facts.value("ended_as", "")).value_or(rml1::JobState::cancelled);
+  job.state = jobs::job_state_named(facts.value("ended_as", "")).value_or(jobs::JobState::cancelled);
   job.written = written_in(facts);
   job.executed = executed_in(facts);
   return job;
 }
 
-rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
-  const double z0 = named.z ? static_cast<double>(*named.z) : profile.default_z0;
-  return {static_cast<double>(named.x) * profile.step_mm, static_cast<double>(named.y) * profile.step_mm,
-          std::abs(profile.top - z0) * profile.step_mm};
-}
-
 std::string checked_for(const MillConfig& config, const std::string& origin) {
   spool::Sha256 sha256;
-  sha256.add(config.profile_text);
-  const auto named = std::ranges::find(config.origins, origin, &NamedOrigin::name);
+  sha256.add(config.model->description());
+  const auto named = std::ranges::find(config.origins, origin, &jobs::NamedOrigin::name);
   if (named != config.origins.end()) {
     sha256.add(fmt::format(" {} {} {}", named->x, named->y, named->z ? fmt::to_string(*named->z) : "-"));
   }
@@ -267,57 +253,40 @@ std::string checked_for(const MillConfig& config, const std::string& origin) {
 }
 
 std::string planned_for(const MillConfig& config) {
-  const rml1::SendSettings& sending = config.sending;
+  const jobs::SendSettings& sending = config.sending;
   return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(sending.streaming), sending.window, sending.slack,
                      sending.slack_as_measured, sending.buffer, sending.converter, sending.baud);
 }
 
-Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, const rml1::Job& job,
-                                                              const std::optional<rml1::MeasuredPace>& measured) {
+Result<std::shared_ptr<const jobs::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
+                                                              const MillConfig& config, const jobs::Job& job,
+                                                              const std::optional<jobs::MeasuredPace>& measured) {
   const Result<std::string> body = part_bytes(spool, device, job);
   if (!body) return tl::unexpected(body.error());
-  const auto origin = check_origin(config, job);
-  Result<rml1::Approach> approach;
-  if (job.setup.from) approach = rml1::approach_to(*body, job.setup.from->offset, config.profile, origin);
-  if (!approach) return tl::unexpected(approach.error());
-  if (job.setup.from) {
-    const auto checked = rml1::check_continued(*body, *approach, config.profile, origin, job.stock);
-    if (!checked) return tl::unexpected(checked.error());
-  }
-  rml1::SendSettings settings = with_pace(config.sending, measured);
-  settings.streaming = job.streaming.value_or(settings.streaming);
-  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, settings,
-                                                   part_begin(job), job.setup.from, *approach);
+  return config.model->prepare({*body, job, check_origin(config, job), config.sending, measured});
 }
 
-Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, rml1::Job& job,
-                      const std::optional<rml1::MeasuredPace>& measured) {
-  rml1::Job at = job;
+Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, jobs::Job& job,
+                      const std::optional<jobs::MeasuredPace>& measured) {
+  jobs::Job at = job;
   for (std::size_t part = job.part; part < job.parts.size(); ++part) {
     if (part != job.part) go_to_part(at, part);
     const auto prepared = prepared_job(spool, device, config, at, measured);
     if (!prepared) return tl::unexpected(prepared.error());
-    job.parts[part].takes = (*prepared)->times().whole();
-    job.parts[part].run_on = (*prepared)->plan().run_on;
+    job.parts[part].takes = (*prepared)->takes();
+    job.parts[part].run_on = (*prepared)->run_on();
   }
   job.planned_for = planned_for(config);
   keep_facts(spool, device, job);
   return {};
 }
 
-Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
-                                const rml1::Job& job, std::uint64_t line, std::uint64_t column) {
+Result<jobs::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
+                                const jobs::Job& job, std::uint64_t line, std::uint64_t column) {
   const Result<std::string> body = part_bytes(spool, device, job);
   if (!body) return tl::unexpected(body.error());
   if (line == 0) return no_line_named(*body, config, job);
-  const auto origin = check_origin(config, job);
-  const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
-  if (!approach) return tl::unexpected(approach.error());
-  if (const auto same = rml1::check_unchanged(sent_of(*body, job), *approach, config.profile, origin); !same) {
-    return tl::unexpected(same.error());
-  }
-  return rml1::check_continued(*body, *approach, config.profile, origin, job.stock).map([&] { return approach->at; });
+  return config.model->rest_from({*body, job, check_origin(config, job), config.sending, {}}, line, column);
 }
 
 }  // namespace axisgate::server

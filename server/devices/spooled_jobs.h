@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/mill/job.h"
-#include "device/rml1/mill/prepared_job.h"
+#include "device/jobs/job.h"
+#include "device/jobs/machine.h"
 #include "server/config/config.h"
 #include "server/devices/job_record.h"
 #include "server/spool/spool.h"
@@ -17,25 +17,21 @@
 namespace axisgate::server {
 
 // Returns the data that the spool keeps with the bytes, as JSON. Omits what the spool knows itself, such as the digest.
-std::string facts_of(const rml1::Job& job);
+std::string facts_of(const jobs::Job& job);
 // Returns a job that is QUEUED since it was sent, in TOOL_CHANGE before a later part, or PAUSED in a part.
-rml1::Job job_of(const spool::Job& spooled);
+jobs::Job job_of(const spool::Job& spooled);
 
 // Returns the jobs that have not ended, in the order of their numbers.
-std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string& device);
+std::vector<jobs::Job> unended_jobs(const spool::Spool& spool, const std::string& device);
 // Returns a job whose sending the previous run had begun, in the state in which that run left it.
-rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
+jobs::Job as_it_was_left(jobs::Job job, const LastJob& last);
 // Keeps the job's place in the queue and the place where it continues, for the next run. Failures are logged.
-void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job);
+void keep_facts(spool::Spool& spool, const std::string& device, const jobs::Job& job);
 // Keeps the ended job for some more time. Failures are logged; the job then returns as QUEUED in the next run.
-void end_spooled(spool::Spool& spool, const std::string& device, const rml1::Job& job);
+void end_spooled(spool::Spool& spool, const std::string& device, const jobs::Job& job);
 // Returns a job that has ended, with its final state; ABORTED and CANCELLED jobs include the known range of executed
 // bytes. Fails with not_found if the spool no longer has it, and with wrong_mode if it has not ended.
-Result<rml1::Job> ended_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber number);
-
-// Returns the work origin in the form that the check of a job takes. If the origin has no height, Z0 is the profile's
-// default.
-rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
+Result<jobs::Job> ended_job(const spool::Spool& spool, const std::string& device, jobs::JobNumber number);
 
 // Returns a digest of the profile and the origin's position, with which a job is checked.
 std::string checked_for(const MillConfig& config, const std::string& origin);
@@ -46,18 +42,18 @@ std::string planned_for(const MillConfig& config);
 // for each, they fail with not_found, or with internal if the bytes have changed.
 
 // Returns the present part of the job as it was published, from the place where it continues. Fails with the errors of
-// rml1::approach_to(). `measured`: pace of the mill.
-Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, const rml1::Job& job,
-                                                              const std::optional<rml1::MeasuredPace>& measured);
+// Model::prepare(). `measured`: pace of the mill.
+Result<std::shared_ptr<const jobs::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
+                                                              const MillConfig& config, const jobs::Job& job,
+                                                              const std::optional<jobs::MeasuredPace>& measured);
 // Computes the durations of the present part and the later ones, and what runs on after an abort, and keeps both in the
 // spool.
-Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, rml1::Job& job,
-                      const std::optional<rml1::MeasuredPace>& measured);
+Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, jobs::Job& job,
+                      const std::optional<jobs::MeasuredPace>& measured);
 // Returns the place where the part of `job` continues: its first command at or after the given line and column. Fails
-// with the errors of rml1::approach_to() and rml1::check_continued(). Fails with invalid_request if `line` is 0; the
+// with the errors of Model::rest_from(). Fails with invalid_request if `line` is 0; the
 // message says where the executed bytes end.
-Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
-                                const rml1::Job& job, std::uint64_t line, std::uint64_t column);
+Result<jobs::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
+                                const jobs::Job& job, std::uint64_t line, std::uint64_t column);
 
 }  // namespace axisgate::server

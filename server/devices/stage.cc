@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "device/core/explain.h"
 #include "device/link/clock.h"
-#include "server/explain.h"
 #include "server/log.h"
 
 namespace axisgate::server {

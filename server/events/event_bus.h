@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/mill/job.h"
-#include "device/rml1/sending/sender.h"
+#include "device/jobs/job.h"
+#include "device/jobs/sending.h"
 #include "device/stage/event.h"
 #include "server/events/wake_ups.h"
 #include "server/events/wall_time.h"
@@ -30,8 +30,8 @@ struct DaemonStarted {
 
 // A job of a mill was added, has changed its state, or is sent differently than before: paused or resumed.
 struct JobChanged {
-  rml1::Job job;
-  std::optional<rml1::SenderState> sending{};  // of a running job
+  jobs::Job job;
+  std::optional<jobs::SenderState> sending{};  // of a running job
   std::string who{};                           // caller who requested it; empty: no caller
   std::string why{};                           // for people; may be empty
 };

@@ -9,12 +9,12 @@
 namespace axisgate::server {
 namespace {
 
-using rml1::JobState;
+using jobs::JobState;
 
 std::size_t index_of(JobState state) { return static_cast<std::size_t>(state); }
 
 prometheus::Labels of_state(const std::string& device, const char* label, JobState state) {
-  return {{"device", device}, {label, std::string(rml1::name(state))}};
+  return {{"device", device}, {label, std::string(jobs::name(state))}};
 }
 
 prometheus::Labels of_bound(const std::string& device, const char* bound) {
@@ -86,7 +86,7 @@ MillMetrics::MillMetrics(const Families& families, const std::string& device)
   }
 }
 
-void MillMetrics::count(const rml1::Job& job, TimePoint now) {
+void MillMetrics::count(const jobs::Job& job, TimePoint now) {
   if (auto* const outcome = outcomes_.at(index_of(job.state))) outcome->Increment();
   if (job.state == JobState::running) {
     started_ = now;
@@ -95,7 +95,7 @@ void MillMetrics::count(const rml1::Job& job, TimePoint now) {
   // The estimate covers only a whole job of one part.
   if (job.state != JobState::fed || job.parts.size() > 1 || job.setup.from) return;
   job_seconds_.Increment(std::chrono::duration<double>(now - started_).count());
-  const rml1::TimeRange takes = rml1::takes(job);
+  const jobs::TimeRange takes = jobs::takes(job);
   estimate_.least.Increment(std::chrono::duration<double>(takes.least).count());
   estimate_.most.Increment(std::chrono::duration<double>(takes.most).count());
 }
@@ -108,20 +108,20 @@ void MillMetrics::count_written(std::uint64_t through) {
   written_ = through;
 }
 
-void MillMetrics::set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running) {
-  for (std::size_t state = 0; state < rml1::kJobStates; ++state) {
+void MillMetrics::set_state(const std::vector<jobs::Job>& jobs, const std::optional<jobs::RunningJob>& running) {
+  for (std::size_t state = 0; state < jobs::kJobStates; ++state) {
     if (queued_.at(state) == nullptr) continue;
-    const auto in_state = [state](const rml1::Job& job) { return index_of(job.state) == state; };
+    const auto in_state = [state](const jobs::Job& job) { return index_of(job.state) == state; };
     queued_.at(state)->Set(static_cast<double>(std::ranges::count_if(jobs, in_state)));
   }
-  const rml1::SendProgress progress = running ? running->progress : rml1::SendProgress{};
+  const jobs::SendProgress progress = running ? running->progress : jobs::SendProgress{};
   buffer_.least.Set(static_cast<double>(progress.written - progress.executed_most));
   buffer_.most.Set(static_cast<double>(progress.written - progress.executed_least));
   busy_.Set(running && running->busy ? 1 : 0);
 }
 
-void MillMetrics::set_pace(const std::optional<rml1::MeasuredPace>& measured) {
-  const auto pace = measured.value_or(rml1::MeasuredPace{});
+void MillMetrics::set_pace(const std::optional<jobs::MeasuredPace>& measured) {
+  const auto pace = measured.value_or(jobs::MeasuredPace{});
   pace_.least.Set(pace.least);
   pace_.most.Set(pace.most);
 }

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/mill/job.h"
-#include "device/rml1/mill/mill_controller.h"
+#include "device/jobs/job.h"
+#include "device/jobs/machine.h"
 
 namespace axisgate::server {
 
@@ -24,15 +24,15 @@ class MillMetrics {
  public:
   MillMetrics(prometheus::Registry& registry, const std::string& device);
 
-  void set_link(rml1::MillLink link) { line_open_.Set(link == rml1::MillLink::open ? 1 : 0); }
+  void set_link(jobs::MachineLink link) { line_open_.Set(link == jobs::MachineLink::open ? 1 : 0); }
   // Counts a job that has entered another state.
-  void count(const rml1::Job& job, TimePoint now);
+  void count(const jobs::Job& job, TimePoint now);
   // Counts a command of the running job that was written. `through` is the byte offset after the command.
   void count_written(std::uint64_t through);
   void count_abort() { aborts_.Increment(); }
   // Updates the gauges with the state that MillController reports.
-  void set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running);
-  void set_pace(const std::optional<rml1::MeasuredPace>& measured);
+  void set_state(const std::vector<jobs::Job>& jobs, const std::optional<jobs::RunningJob>& running);
+  void set_pace(const std::optional<jobs::MeasuredPace>& measured);
 
  private:
   struct Families;
@@ -53,8 +53,8 @@ class MillMetrics {
   Bounds<prometheus::Counter> estimate_;
   Bounds<prometheus::Gauge> buffer_;
   Bounds<prometheus::Gauge> pace_;
-  std::array<prometheus::Gauge*, rml1::kJobStates> queued_{};      // by JobState; null: not a state of a queued job
-  std::array<prometheus::Counter*, rml1::kJobStates> outcomes_{};  // by JobState; null: not an outcome
+  std::array<prometheus::Gauge*, jobs::kJobStates> queued_{};      // by JobState; null: not a state of a queued job
+  std::array<prometheus::Counter*, jobs::kJobStates> outcomes_{};  // by JobState; null: not an outcome
   std::uint64_t written_ = 0;                                      // of the running job
   TimePoint started_{};
 };

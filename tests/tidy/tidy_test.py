@@ -126,16 +126,21 @@ class Floors(Tree):
         self.assert_include("server/events/a.cc", "server/config/config.h", "floors")
 
     def test_only_one_file_names_the_kinds_of_device(self):
-        for path in ("server/gateway.cc", "server/devices/a.cc", "server/rpc/a.cc"):
-            self.assert_include(path, "device/shrc203/kind.h", "kinds")
-        self.assert_include("server/kinds.cc", "device/shrc203/kind.h")
+        kinds = ("device/shrc203/kind.h", "device/rml1/kind.h", "device/rml1/language/parser.h")
+        for path in ("server/gateway.cc", "server/devices/a.cc", "server/api/mill/a.cc", "server/rpc/a.cc"):
+            for kind in kinds:
+                self.assert_include(path, kind, "kinds")
+        for kind in kinds:
+            self.assert_include("server/kinds.cc", kind)
 
-    def test_mills_are_of_one_kind(self):
-        self.assert_include("server/config/a.h", "device/rml1/b.h")
-        self.assert_include("server/devices/a.cc", "device/rml1/simulator/b.h")
-        self.assert_include("server/config/a.h", "device/shrc203/kind.h", "kinds")
-        for path in ("server/gateway.cc", "server/front/a.cc"):
-            self.assert_include(path, "device/rml1/b.h", "kinds")
+    def test_the_server_uses_stages_and_jobs(self):
+        for path in ("server/config/a.h", "server/devices/a.cc", "server/api/mill/a.cc"):
+            self.assert_include(path, "device/stage/kind.h")
+            self.assert_include(path, "device/jobs/kind.h")
+        self.assert_include("device/rml1/a.h", "device/jobs/job.h")
+        self.assert_include("device/jobs/a.h", "device/stage/permission.h")
+        self.assert_include("device/jobs/a.h", "device/rml1/machine/profile.h", "floors")
+        self.assert_include("device/stage/a.h", "device/jobs/job.h", "floors")
 
     def test_those_who_wire_may(self):
         self.assert_include("device/shrc203/simulator/program/a.cc", "device/link/b.h")
@@ -171,6 +176,7 @@ class SimulatorApart(Tree):
             self.assert_include("device/rml1/simulator/a.cc", target, "simulator-apart")
             self.assert_include("device/rml1/simulator/program/a.cc", target, "simulator-apart")
         self.assert_include("device/rml1/a.cc", "device/rml1/simulator/machine.h", "simulator-apart")
+        self.assert_include("device/rml1/model.cc", "device/rml1/simulator/machine.h")
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/machine/profile.h")
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/simulator/machine.h")
 
