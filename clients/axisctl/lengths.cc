@@ -15,7 +15,7 @@ constexpr double kFarthest = 10'000;  // mm; the same limit as in profiles
 
 }  // namespace
 
-rml1::Point lengths(const std::string& text, const char* option) {
+jobs::Point lengths(const std::string& text, const char* option) {
   double values[3] = {};
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -30,8 +30,8 @@ rml1::Point lengths(const std::string& text, const char* option) {
   throw usage(fmt::format("\"{}\" is not valid for {}", text, option), "use three lengths in mm, e.g. 10,10,5.5");
 }
 
-rml1::Stock stock_of(const std::string& text) {
-  const rml1::Point p = lengths(text, "--stock");
+jobs::Stock stock_of(const std::string& text) {
+  const jobs::Point p = lengths(text, "--stock");
   if (p.x > 0 && p.y > 0 && p.z > 0) return {p.x, p.y, p.z};
   throw usage("--stock has no size", "use its three lengths in mm, e.g. 80,50,10");
 }

@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "device/rml1/check/stock.h"
-#include "device/rml1/machine/point.h"
+#include "device/jobs/point.h"
+#include "device/jobs/stock.h"
 
 namespace axisgate::axisctl {
 
 // Parses three lengths. `option` is the option's name, for messages. Throws Failure if the text is not valid, as does
 // stock_of().
-rml1::Point lengths(const std::string& text, const char* option);
+jobs::Point lengths(const std::string& text, const char* option);
 
 // Parses the value of --stock, whose lengths must be above 0.
-rml1::Stock stock_of(const std::string& text);
+jobs::Stock stock_of(const std::string& text);
 
 }  // namespace axisgate::axisctl

@@ -47,7 +47,7 @@ class Api {
         events(gateway, admission, streams),
         history(gateway, admission),
         diagnostics(gateway, admission, device_pipeline, streams),
-        simulators(gateway, pipeline),
+        simulators(gateway, device_pipeline),
         tokens(gateway, access, admission, streams),
         mill(gateway, mill_pipeline, streams) {}
 

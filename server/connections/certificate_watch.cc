@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "device/core/explain.h"
 #include "server/connections/certificates.h"
-#include "server/explain.h"
 #include "server/log.h"
 
 namespace axisgate::server {

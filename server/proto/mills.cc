@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kLongestStock = 10'000;  // mm; the same limit as in axisctl
 
-using rml1::JobState;
-using rml1::SenderState;
+using jobs::JobState;
+using jobs::SenderState;
 
 v1::JobState to_job_state(JobState state) {
   static_assert(static_cast<int>(JobState::queued) + 1 == v1::JOB_STATE_QUEUED);
@@ -29,9 +29,9 @@ v1::JobState to_job_state(JobState state) {
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
 }
 
-void add_parts(const rml1::Job& job, v1::Job& proto) {
+void add_parts(const jobs::Job& job, v1::Job& proto) {
   std::uint64_t begin = 0;
-  for (const rml1::JobPart& part : job.parts) {
+  for (const jobs::JobPart& part : job.parts) {
     v1::JobPart& added = *proto.add_parts();
     added.set_tool(part.tool);
     added.set_bytes(static_cast<std::int64_t>(part.end - begin));
@@ -40,7 +40,7 @@ void add_parts(const rml1::Job& job, v1::Job& proto) {
   proto.set_part(static_cast<std::int32_t>(job.part));
 }
 
-v1::JobPlace place_of(const rml1::Place& place) {
+v1::JobPlace place_of(const jobs::Place& place) {
   v1::JobPlace proto;
   proto.set_byte(static_cast<std::int64_t>(place.offset));
   proto.set_line(static_cast<std::int64_t>(place.line));
@@ -48,7 +48,7 @@ v1::JobPlace place_of(const rml1::Place& place) {
   return proto;
 }
 
-v1::JobSetup setup_of(const rml1::JobSetup& setup) {
+v1::JobSetup setup_of(const jobs::JobSetup& setup) {
   v1::JobSetup proto;
   proto.set_digest(setup.digest);
   proto.set_profile(setup.profile);
@@ -79,18 +79,18 @@ v1::SendingState to_sending_state(SenderState state) {
   }
 }
 
-v1::Streaming to_streaming(rml1::Streaming streaming) {
-  return streaming == rml1::Streaming::full ? v1::STREAMING_FULL : v1::STREAMING_PACED;
+v1::Streaming to_streaming(jobs::Streaming streaming) {
+  return streaming == jobs::Streaming::full ? v1::STREAMING_FULL : v1::STREAMING_PACED;
 }
 
-v1::AxisExtent to_proto(const rml1::Reach& reach) {
+v1::AxisExtent to_proto(const jobs::Reach& reach) {
   v1::AxisExtent proto;
   proto.set_least_mm(reach.lowest);
   proto.set_most_mm(reach.highest);
   return proto;
 }
 
-v1::JobExtent to_proto(const rml1::Extent& extent) {
+v1::JobExtent to_proto(const jobs::Extent& extent) {
   v1::JobExtent proto;
   *proto.mutable_x() = to_proto(extent.driven.x);
   *proto.mutable_y() = to_proto(extent.driven.y);
@@ -105,19 +105,19 @@ v1::JobExtent to_proto(const rml1::Extent& extent) {
 v1::Job to_proto(const api::CurrentJob& current) {
   v1::Job proto = to_proto(current.mill->name(), current.job, current.clock);
   proto.set_streaming(to_streaming(current.job.streaming.value_or(current.mill->config().sending.streaming)));
-  if (const auto run_on = rml1::run_on(current.job)) *proto.mutable_run_on() = to_proto(*run_on);
+  if (const auto run_on = jobs::run_on(current.job)) *proto.mutable_run_on() = to_proto(*run_on);
   if (current.job.extent.driven.z.any) *proto.mutable_extent() = to_proto(current.job.extent);
   return proto;
 }
 
-v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock) {
+v1::Job to_proto(std::string_view mill, const jobs::Job& job, const server::Moment& clock) {
   v1::Job proto;
   proto.set_name(api::job_name(mill, job.number));
   proto.set_title(job.name);
   proto.set_owner(job.owner);
   *proto.mutable_setup() = setup_of(job.setup);
   proto.set_bytes(static_cast<std::int64_t>(job.bytes));
-  if (const rml1::TimeRange takes = rml1::takes(job); takes.most > Duration()) {
+  if (const jobs::TimeRange takes = jobs::takes(job); takes.most > Duration()) {
     *proto.mutable_shortest() = to_proto(takes.least);
     *proto.mutable_longest() = to_proto(takes.most);
   }
@@ -138,19 +138,19 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.mutable_stock()->set_y_mm(job.stock->y);
     proto.mutable_stock()->set_z_mm(job.stock->z);
   }
-  for (const rml1::Warning warning : job.accepted) proto.add_accepted_warnings(std::string(rml1::name(warning)));
+  for (const std::string& warning : job.accepted) proto.add_accepted_warnings(warning);
   add_parts(job, proto);
   return proto;
 }
 
-v1::JobPlaceRange to_proto(const rml1::PlaceRange& range) {
+v1::JobPlaceRange to_proto(const jobs::PlaceRange& range) {
   v1::JobPlaceRange proto;
   *proto.mutable_least() = place_of(range.least);
   *proto.mutable_most() = place_of(range.most);
   return proto;
 }
 
-v1::RunOn to_proto(const rml1::RunOn& run_on) {
+v1::RunOn to_proto(const jobs::RunOn& run_on) {
   v1::RunOn proto;
   proto.set_at_most(static_cast<std::int64_t>(run_on.at_most));
   proto.set_if_held(static_cast<std::int64_t>(run_on.if_held));
@@ -162,7 +162,7 @@ v1::RunOn to_proto(const rml1::RunOn& run_on) {
 v1::RunningJob to_proto(const api::CurrentRun& run) {
   v1::RunningJob proto;
   if (!run.running) return proto;
-  const rml1::RunningJob& job = *run.running;
+  const jobs::RunningJob& job = *run.running;
   proto.set_job(api::job_name(run.mill->name(), job.number));
   proto.set_sending(to_sending_state(job.sender));
   proto.set_written(static_cast<std::int64_t>(job.progress.written));
@@ -182,9 +182,9 @@ v1::Mill to_proto(const api::MillState& state) {
   v1::Mill proto;
   const server::MillConfig& config = state.mill->config();
   proto.set_name(api::device_name(state.mill->name()));
-  proto.set_profile(config.profile.name);
-  proto.set_line_open(state.now->link == rml1::MillLink::open);
-  for (const rml1::Job& job : state.now->jobs) {
+  proto.set_profile(std::string(config.model->name()));
+  proto.set_line_open(state.now->link == jobs::MachineLink::open);
+  for (const jobs::Job& job : state.now->jobs) {
     *proto.add_jobs() = to_proto(api::CurrentJob{state.mill, job, state.now->clock});
   }
   if (state.now->running) {
@@ -197,9 +197,9 @@ v1::Mill to_proto(const api::MillState& state) {
   if (state.now->ended)
     *proto.mutable_ended() = to_proto(api::CurrentJob{state.mill, *state.now->ended, state.now->clock});
   for (const std::string& tool : config.tools) proto.add_tools(tool);
-  for (const server::NamedOrigin& origin : config.origins) {
+  for (const jobs::NamedOrigin& origin : config.origins) {
     proto.add_origins(origin.name);
-    const rml1::Origin place = server::origin_of(origin, config.profile);
+    const jobs::Origin place = config.model->place_of(origin);
     v1::OriginPlace& shown = *proto.add_origin_places();
     shown.set_x_mm(place.x);
     shown.set_y_mm(place.y);
@@ -213,15 +213,15 @@ v1::Device device_of(const api::MillState& state) {
   v1::Device proto;
   proto.set_name(api::device_name(state.mill->name()));
   proto.set_kind(std::string(state.mill->kind_name()));
-  const bool open = state.now->link == rml1::MillLink::open;
+  const bool open = state.now->link == jobs::MachineLink::open;
   proto.set_link(open ? v1::LINK_STATE_UP : v1::LINK_STATE_DOWN);
   proto.set_link_problem(state.now->why_closed);
-  proto.set_model(state.mill->config().profile.name);
+  proto.set_model(std::string(state.mill->config().model->name()));
   return proto;
 }
 
-rml1::JobSetup to_setup(const v1::JobSetup& proto) {
-  rml1::JobSetup setup{
+jobs::JobSetup to_setup(const v1::JobSetup& proto) {
+  jobs::JobSetup setup{
       proto.digest(), proto.profile(), proto.origin(), proto.tool(), {proto.left().begin(), proto.left().end()}};
   if (proto.has_from()) {
     const v1::JobPlace& from = proto.from();
@@ -237,16 +237,16 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
     case v1::OperateMillRequest::kStep: {
       const v1::JogStep& step = request.step();
       return api::HandRequest{
-          rml1::JogStep{step.x_mm(), step.y_mm(), step.z_mm(), given(step.has_mm_per_s(), step.mm_per_s())}};
+          jobs::JogStep{step.x_mm(), step.y_mm(), step.z_mm(), given(step.has_mm_per_s(), step.mm_per_s())}};
     }
     case v1::OperateMillRequest::kSurface: {
       const v1::SetSurface& surface = request.surface();
-      return api::HandRequest{rml1::SetSurface{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
+      return api::HandRequest{jobs::SetSurface{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
     }
     case v1::OperateMillRequest::kSpindle:
-      return api::HandRequest{rml1::TurnSpindle{request.spindle()}};
+      return api::HandRequest{jobs::TurnSpindle{request.spindle()}};
     case v1::OperateMillRequest::kRaise:
-      return api::HandRequest{rml1::RaiseTool{}};
+      return api::HandRequest{jobs::RaiseTool{}};
     case v1::OperateMillRequest::ACT_NOT_SET:
       break;
   }
@@ -271,7 +271,7 @@ Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   job.continues = request.continues();
   if (request.has_stock()) {
     const v1::Stock& stock = request.stock();
-    job.stock = rml1::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};
+    job.stock = jobs::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};
     const auto is_length = [](double mm) { return mm > 0 && mm <= kLongestStock; };
     if (!is_length(stock.x_mm()) || !is_length(stock.y_mm()) || !is_length(stock.z_mm())) {
       return fail(Reason::invalid_request, "the workpiece has no size, or one that cannot be",
@@ -283,7 +283,7 @@ Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
                 "use PACED or FULL, or leave it out");
   }
   if (request.streaming() != v1::STREAMING_UNSPECIFIED) {
-    job.streaming = request.streaming() == v1::STREAMING_FULL ? rml1::Streaming::full : rml1::Streaming::paced;
+    job.streaming = request.streaming() == v1::STREAMING_FULL ? jobs::Streaming::full : jobs::Streaming::paced;
   }
   if (request.parts().empty()) {
     job.parts.push_back({request.tool()});

@@ -12,18 +12,18 @@
 namespace axisgate::proto {
 
 // `mill` is the mill's name in the configuration. `clock` converts the job's times to wall time.
-v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock);
+v1::Job to_proto(std::string_view mill, const jobs::Job& job, const server::Moment& clock);
 v1::Job to_proto(const api::CurrentJob& job);
-v1::SendingState to_sending_state(rml1::SenderState state);
-v1::JobPlaceRange to_proto(const rml1::PlaceRange& range);
-v1::RunOn to_proto(const rml1::RunOn& run_on);
+v1::SendingState to_sending_state(jobs::SenderState state);
+v1::JobPlaceRange to_proto(const jobs::PlaceRange& range);
+v1::RunOn to_proto(const jobs::RunOn& run_on);
 // Empty message if no job runs.
 v1::RunningJob to_proto(const api::CurrentRun& run);
 v1::Mill to_proto(const api::MillState& state);
 // Returns the mill's entry in the list of all devices.
 v1::Device device_of(const api::MillState& state);
 
-rml1::JobSetup to_setup(const v1::JobSetup& proto);
+jobs::JobSetup to_setup(const v1::JobSetup& proto);
 // Fails with invalid_request if the request names no act.
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
 // Reads the first message of a job. Fails with invalid_request if the job has both a tool and parts, an unknown

@@ -314,6 +314,9 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(leased.stdout, r"\Aaxis 1  held by ")
         refused = self.daemon.run("--device", "mill", "position")
         self.assertRegex(refused.stderr, r"INVALID_REQUEST: devices/mill is a mill: it has no axes to move")
+        self.assertEqual(self.daemon.run("--device", "mill", "status").stdout,
+                         "mill  UP\nMDX-20; `axisctl mill queue` shows its jobs\n")
+        self.assertEqual(self.daemon.run("--device", "quick", "sim", "cover", "open").returncode, 0)
 
     def test_a_stop_of_an_axis_is_no_abort(self):
         number = self.start_long()

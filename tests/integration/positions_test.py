@@ -138,7 +138,7 @@ class Positions(unittest.TestCase):
         self.assertNotIn("may have forgotten", listed[0])
         self.assertIn("the controller may have lost it", listed[1])
         told = self.refused(3, "EPOCH_PASSED", "go", "place")
-        self.assertRegex(told, r'"place" is not there any more: .*PIT:.* came back \d+ s ago.*restarted.*'
+        self.assertRegex(told, r'"place" is no longer there: .*PIT:.* came back \d+ s ago.*restarted.*'
                                r'axisctl save place\)')
         self.assertEqual(self.at(), "axis x  0 mm")
         self.ok("go", "numbers")

@@ -172,7 +172,7 @@ TEST(Moves, Approach) {
   EXPECT_FALSE(move("")->targets.at(0).approach);
   const Result<stage::MoveRequest> from_no_side = api::completed(*move("approach { um: \"0\" }"), {}, {});
   ASSERT_FALSE(from_no_side);
-  EXPECT_EQ(from_no_side.error().message, "axis 2: an approach of 0 comes from no side");
+  EXPECT_EQ(from_no_side.error().message, "axis 2: an approach of 0 has no direction");
   EXPECT_EQ(move("approach {}").error().message, "axis 2: a distance has no amount");
 }
 

@@ -247,7 +247,7 @@ TEST_F(RpcPositions, AResetEmptiesPlacesAndSaysSo) {
   EXPECT_EQ(reason(gone), v1::REASON_EPOCH_PASSED);
   EXPECT_EQ(gone.error_code(), grpc::FAILED_PRECONDITION);
   EXPECT_THAT(gone.error_message(),
-              testing::MatchesRegex("\"sample\" is not there any more: the controller holds nothing under number 1 "
+              testing::MatchesRegex("\"sample\" is no longer there: the controller holds nothing under number 1 "
                                     "of its positions \\(PIT:\\); the controller came back [0-9]+ s ago, and may have "
                                     "restarted, which deletes its saved positions.*"));
   EXPECT_EQ(motion_count(), motions + 1);  // the motion that failed

@@ -212,7 +212,7 @@ class AtTheDevice(ControlTest):
 
     def test_bad_input_changes_nothing_and_says_what_is_allowed(self):
         self.assertEqual(self.at.say("limit 1 up on"),
-                         "error: 'up' cannot stand for cw|ccw; say: limit AXIS cw|ccw on|off (AXIS 1 to 3)")
+                         "error: 'up' cannot be used as cw|ccw; say: limit AXIS cw|ccw on|off (AXIS 1 to 3)")
         self.assertTrue(self.at.say("emergency!").startswith("error: there is no command 'emergency!'; say one of: "))
         self.assertTrue(self.at.say("\x00\x1b[2J").startswith("error: there is no command '\\x00\\x1B[2J'; "))
         self.assertTrue(self.at.say("").startswith("error: the line is empty; "))

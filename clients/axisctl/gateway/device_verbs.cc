@@ -65,9 +65,13 @@ void print_stops(const v1::Device& device) {
   }
 }
 
+// A mill has no axes that could be moved one by one.
+bool is_mill(const v1::Device& device) { return device.axes().empty(); }
+
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
   print_stops(device);
+  if (is_mill(device)) return print_line(fmt::format("{}; `axisctl mill queue` shows its jobs", device.model()));
   if (device.device_epoch() == 0) {
     print_line("controller unknown: it has not replied since the daemon started");
     return;
@@ -136,6 +140,10 @@ int status(const Session& session) {
 
 int position(const Session& session) {
   const v1::Device device = read_now(session, chosen_device(session).name());
+  if (is_mill(device)) {
+    throw Failure{kRefused, "INVALID_REQUEST", fmt::format("{} is a mill: it has no axes to move", device.name()),
+                  "`axisctl mill` sends jobs to it"};
+  }
   for (const v1::Axis& axis : device.axes()) {
     if (!axis.controllable()) continue;
     if (session.options.json) {

@@ -11,7 +11,7 @@
 
 namespace axisgate::axisctl {
 
-rml1::Origin configured_origin(const Options& options, const std::string& name) {
+jobs::Origin configured_origin(const Options& options, const std::string& name) {
   const Session session{options, Connection(options.target, options.request_id)};
   const v1::Mill mill = mill_now(session, chosen_mill(session));
   std::vector<std::string> names;

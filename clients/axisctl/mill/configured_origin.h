@@ -9,6 +9,6 @@
 namespace axisgate::axisctl {
 
 // Asks the daemon for the place of a named origin. The mill is the one in `options`, or the only mill. Throws Failure.
-rml1::Origin configured_origin(const Options& options, const std::string& name);
+jobs::Origin configured_origin(const Options& options, const std::string& name);
 
 }  // namespace axisgate::axisctl

@@ -20,28 +20,28 @@ std::optional<std::uint64_t> count_from_one(std::string_view text) {
   return static_cast<std::uint64_t>(value);
 }
 
-std::optional<rml1::Place> place_in(std::string_view text) {
+std::optional<jobs::Place> place_in(std::string_view text) {
   const std::size_t colon = text.find(':');
   const auto line = count_from_one(text.substr(0, colon));
   const auto column = colon == std::string_view::npos ? 1 : count_from_one(text.substr(colon + 1));
   if (!line || !column) return std::nullopt;
-  return rml1::Place{.line = *line, .column = *column};
+  return jobs::Place{.line = *line, .column = *column};
 }
 
 }  // namespace
 
-rml1::Place job_place(const std::string& text) {
+jobs::Place job_place(const std::string& text) {
   if (const auto place = place_in(text)) return *place;
   throw usage(fmt::format("\"{}\" is not valid for --from", text),
               "name a line, e.g. 12, or a line and a column, e.g. 1:340");
 }
 
-rml1::PlaceRange job_range(const std::string& text) {
+jobs::PlaceRange job_range(const std::string& text) {
   const std::string_view all = text;
   const std::size_t hyphen = all.find('-');
   const auto least = place_in(all.substr(0, hyphen));
   const auto most = hyphen == std::string_view::npos ? least : place_in(all.substr(hyphen + 1));
-  const auto order = [](const rml1::Place& place) { return std::tie(place.line, place.column); };
+  const auto order = [](const jobs::Place& place) { return std::tie(place.line, place.column); };
   if (least && most && order(*least) <= order(*most)) return {*least, *most};
   throw usage(fmt::format("\"{}\" is not valid for --from", text),
               "name a line, e.g. 12, a line and a column, e.g. 1:340, or two of them in their order, e.g. 8:1-13:1");

@@ -42,7 +42,7 @@ int choose_rest(const Session& session) {
   auto request = job_request<v1::ContinueJobRequest>(session);
   // Without a line the daemon refuses, and its message names the place where the sent part ends.
   if (session.options.job.from) {
-    const rml1::Place from = job_place(*session.options.job.from);
+    const jobs::Place from = job_place(*session.options.job.from);
     request.set_line(static_cast<std::int64_t>(from.line));
     request.set_column(static_cast<std::int64_t>(from.column));
   }

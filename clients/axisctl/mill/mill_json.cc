@@ -13,15 +13,15 @@ using namespace rml1;
 // Converts steps: `unit` is 1 for steps, or the length of a step for mm. Never returns -0.
 ordered_json number(double steps, double unit) { return std::abs(steps) < 1e-9 ? 0 : steps * unit; }
 
-ordered_json to_json(const Point& p, double unit) {
+ordered_json to_json(const jobs::Point& p, double unit) {
   return {{"x", number(p.x, unit)}, {"y", number(p.y, unit)}, {"z", number(p.z, unit)}};
 }
 
 // Returns null if nothing moves. Testing Z is enough: either all three axes have bounds, or none.
-ordered_json to_json(const Bounds& bounds, double unit) {
+ordered_json to_json(const jobs::Bounds& bounds, double unit) {
   if (!bounds.z.any) return {};
-  return {{"min", to_json(Point{bounds.x.lowest, bounds.y.lowest, bounds.z.lowest}, unit)},
-          {"max", to_json(Point{bounds.x.highest, bounds.y.highest, bounds.z.highest}, unit)}};
+  return {{"min", to_json(jobs::Point{bounds.x.lowest, bounds.y.lowest, bounds.z.lowest}, unit)},
+          {"max", to_json(jobs::Point{bounds.x.highest, bounds.y.highest, bounds.z.highest}, unit)}};
 }
 
 ordered_json to_json(const Section& section) {

@@ -125,7 +125,7 @@ void add_starts(CLI::App& mill, Options& options) {
 void add_pauses(CLI::App& mill, Options& options) {
   CLI::App* pause =
       add_job_verb(mill, options, Verb::mill_pause, "pause", "send no more of the job; what was sent runs on");
-  pause->add_flag("--raise", options.job.raise, "raise the tool behind what was sent, and stop the spindle");
+  pause->add_flag("--raise", options.job.raise, "raise the tool after the last sent byte, and stop the spindle");
   CLI::App* resume = add_job_verb(mill, options, Verb::mill_resume, "resume",
                                   "send the rest of the job that is paused; with JOB, choose where that one continues");
   CLI::Option* job = add_number(*resume, options, "the number of a job that is PAUSED or PAUSED_UNKNOWN");

@@ -47,7 +47,7 @@ int mill_send_rest(const Session& session) {
   request.set_rest(true);
   // Without a line the daemon refuses, and its message names the place where the executed part ends.
   if (job.from) {
-    const rml1::Place from = job_place(*job.from);
+    const jobs::Place from = job_place(*job.from);
     request.set_line(static_cast<std::int64_t>(from.line));
     request.set_column(static_cast<std::int64_t>(from.column));
   }

@@ -19,13 +19,13 @@ std::string counted(std::uint64_t count, std::string_view what) {
 // Returns 0 for tiny values, so that -0.00 is shown as 0.00.
 double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
-std::string reach_text(std::string_view axis, const Reach& reach, double step_mm) {
+std::string reach_text(std::string_view axis, const jobs::Reach& reach, double step_mm) {
   return fmt::format("{} {:.2f} to {:.2f} mm", axis, plain(reach.lowest) * step_mm, plain(reach.highest) * step_mm);
 }
 
 // Returns the range of Z. The height of the top is shown only if Z0 is known.
 std::string height_text(const Check& check, double step_mm, bool origin_known) {
-  const Reach& z = check.summary().bounds.z;
+  const jobs::Reach& z = check.summary().bounds.z;
   if (z.highest < check.machine().box().highest.z) return reach_text("Z", z, step_mm);
   return origin_known ? reach_text("Z", z, step_mm) + " (the top)"
                       : fmt::format("Z {:.2f} mm to the top", plain(z.lowest) * step_mm);

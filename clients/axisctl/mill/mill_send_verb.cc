@@ -50,7 +50,7 @@ std::string tool_of(const JobOptions& job, const v1::Mill& mill) {
 }
 
 void set_stock(const std::string& text, v1::Stock& into) {
-  const rml1::Stock stock = stock_of(text);
+  const jobs::Stock stock = stock_of(text);
   into.set_x_mm(stock.x);
   into.set_y_mm(stock.y);
   into.set_z_mm(stock.z);

@@ -37,10 +37,10 @@ constexpr double kThinnest = 0.1, kThickest = 100;  // range of a tool's diamete
 std::string made_for(const std::string& profile) { return profile.empty() ? "" : mill_profile(profile).name; }
 
 // Returns the origin of --origin: coordinates such as "10,10,5", or the name of a configured origin such as "vice".
-Origin origin_of(const Options& options) {
+jobs::Origin origin_of(const Options& options) {
   const std::string& text = *options.mill.origin;
   if (server::is_name(text)) return configured_origin(options, text);
-  const Point p = lengths(text, "--origin");
+  const jobs::Point p = lengths(text, "--origin");
   return {p.x, p.y, p.z};
 }
 
@@ -50,7 +50,7 @@ CheckOptions check_options(const Options& all, const Profile& profile) {
   options.others = rml1::known_machines();
   options.made_for = made_for(asked.made_for);
   if (asked.origin) {
-    const Origin p = origin_of(all);
+    const jobs::Origin p = origin_of(all);
     if (p.z < 0 || p.z > profile.z_mm) {
       throw usage(fmt::format("--origin has Z0 {} mm below the top", p.z),
                   fmt::format("Z travels {} mm on the {}: use 0 to {}", profile.z_mm, profile.name, profile.z_mm));
@@ -139,7 +139,7 @@ int mill_preview(const Options& options) {
   check_parts(asked);
   const Profile profile = mill_profile(asked.profile);
   CheckOptions how = check_options(options, profile);
-  Strokes strokes(asked.from ? job_range(*asked.from) : PlaceRange());
+  Strokes strokes(asked.from ? job_range(*asked.from) : jobs::PlaceRange());
   std::vector<std::unique_ptr<Check>> checks;
   std::vector<const Check*> parts;
   for (std::size_t part = 0; part < asked.files.size(); ++part) {

@@ -73,14 +73,24 @@ Result<DeviceList> Devices::list(const Call& call) const {
 }
 
 void Devices::get(const Call& call, std::string_view device, std::optional<Duration> max_age,
-                  Answer<StateNow> answer) const {
-  pipeline_.ask({RequestKind::get_device, call, find_stage(gateway_, device)}, std::move(answer),
-                [max_age](const Turn& turn, const Answer<StateNow>& respond) {
-                  if (!max_age) return respond(StateNow{&turn.device, &turn.controller.state()});
+                  Answer<DeviceNow> answer) const {
+  const Result<server::Device*> found = find_device(gateway_, device);
+  auto* mill = found ? dynamic_cast<server::Mill*>(*found) : nullptr;
+  if (mill == nullptr) return get_stage(call, find_stage(gateway_, device), max_age, std::move(answer));
+  const auto caller = admission_.check_role(RequestKind::get_device, call.credential);
+  if (!caller) return answer(tl::unexpected(caller.error()));
+  answer(MillState{mill, mill->newest().get().value});
+}
+
+void Devices::get_stage(const Call& call, Result<server::Stage*> stage, std::optional<Duration> max_age,
+                        Answer<DeviceNow> answer) const {
+  pipeline_.ask({RequestKind::get_device, call, std::move(stage)}, std::move(answer),
+                [max_age](const Turn& turn, const Answer<DeviceNow>& respond) {
+                  if (!max_age) return respond(StageNow{&turn.device, &turn.controller.state()});
                   turn.controller.refresh(*max_age, turn.context, turn.now,
                                           [respond, &asked = turn.device](const Result<stage::State>& state) {
                                             if (!state) return respond(tl::unexpected(state.error()));
-                                            respond(StateNow{&asked, &*state});
+                                            respond(StageNow{&asked, &*state});
                                           });
                 });
 }

@@ -32,11 +32,13 @@ struct DeviceList {
   bool requests_kept = false;                                 // requests are remembered over a restart, too
 };
 
-// A StateNow is not a copy: it is valid only during the call that passes it.
-struct StateNow {
+// A StageNow is not a copy: it is valid only during the call that passes it.
+struct StageNow {
   const server::Stage* device = nullptr;
   const stage::State* state = nullptr;
 };
+
+using DeviceNow = std::variant<StageNow, MillState>;
 
 // Thread safe.
 class Devices {
@@ -51,8 +53,8 @@ class Devices {
   Result<DeviceList> list(const Call& call) const;
 
   // Answers with the state; with `max_age`, reads an older state again from the device. Fails with link_down if the
-  // device must be read and is not up.
-  void get(const Call& call, std::string_view device, std::optional<Duration> max_age, Answer<StateNow> answer) const;
+  // device must be read and is not up. A mill is never read, because it never answers.
+  void get(const Call& call, std::string_view device, std::optional<Duration> max_age, Answer<DeviceNow> answer) const;
 
   // Streams the newest state at every change, at most once per `min_interval`, which is at least kIntervalMin.
   Opened<DeviceState> watch(const Call& call, std::string_view device, Duration min_interval) const;
@@ -65,6 +67,9 @@ class Devices {
   void withdraw_stop(const Call& call, std::string_view stop, Answer<void> answer) const;
 
  private:
+  void get_stage(const Call& call, Result<server::Stage*> stage, std::optional<Duration> max_age,
+                 Answer<DeviceNow> answer) const;
+
   server::Gateway& gateway_;
   const Admission& admission_;
   const Pipeline& pipeline_;

@@ -14,15 +14,15 @@ namespace axisgate::api {
 class Simulators {
  public:
   // The referenced objects must outlive this one.
-  Simulators(const server::Gateway& gateway, const Pipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
+  Simulators(const server::Gateway& gateway, const DevicePipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
-  // Operates the device as stage::Simulation::operate() does. Fails with invalid_request, also if the device is not
+  // Operates the device as Simulation::operate() does. Fails with invalid_request, also if the device is not
   // simulated.
   void operate(const Call& call, std::string_view device, const std::string& command, Answer<std::string> answer) const;
 
  private:
   const server::Gateway& gateway_;
-  const Pipeline& pipeline_;
+  const DevicePipeline& pipeline_;
 };
 
 }  // namespace axisgate::api

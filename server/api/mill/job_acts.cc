@@ -17,14 +17,14 @@ using MillTurn = TurnOf<Mill>;
 
 // Answers a repeated request with the job as it is now, without acting. If the job has left the queue meanwhile and
 // `then` is a final state, the answer is a job in that state.
-void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, rml1::JobState then,
+void repeat_job(Mill& mill, const Result<Known>& known, jobs::JobNumber number, jobs::JobState then,
                 const Answer<CurrentJob>& answer) {
   repeat_done(known, [&](const Result<void>& done) {
     if (!done) return answer(tl::unexpected(done.error()));
-    mill.post([&mill, number, then, answer](rml1::MillController& controller, TimePoint now) {
-      const Result<rml1::Job> job = find_job(controller, number);
-      if (!job && !rml1::is_end(then)) return answer(tl::unexpected(job.error()));
-      rml1::Job ended;
+    mill.post([&mill, number, then, answer](jobs::Machine& controller, TimePoint now) {
+      const Result<jobs::Job> job = find_job(controller, number);
+      if (!job && !jobs::is_end(then)) return answer(tl::unexpected(job.error()));
+      jobs::Job ended;
       ended.number = number;
       ended.state = then;
       CurrentJob current{&mill, job.value_or(ended), server::moment_of(now)};
@@ -36,16 +36,16 @@ void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, 
 }
 
 // Returns the state of a job after a request of this kind.
-rml1::JobState outcome_of(RequestKind kind) {
-  if (kind == RequestKind::cancel_job) return rml1::JobState::cancelled;
-  if (kind == RequestKind::continue_job) return rml1::JobState::paused;
-  return kind == RequestKind::report_job_done ? rml1::JobState::done : rml1::JobState::running;
+jobs::JobState outcome_of(RequestKind kind) {
+  if (kind == RequestKind::cancel_job) return jobs::JobState::cancelled;
+  if (kind == RequestKind::continue_job) return jobs::JobState::paused;
+  return kind == RequestKind::report_job_done ? jobs::JobState::done : jobs::JobState::running;
 }
 
 }  // namespace
 
-Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber number) {
-  const auto found = std::ranges::find(mill.jobs(), number, &rml1::Job::number);
+Result<jobs::Job> find_job(const jobs::Machine& mill, jobs::JobNumber number) {
+  const auto found = std::ranges::find(mill.jobs(), number, &jobs::Job::number);
   if (found != mill.jobs().end()) return *found;
   return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
               "`axisctl mill queue` lists them; `axisctl history` has those that have ended");
@@ -53,23 +53,23 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
 
 Result<void> check_in_time(const MillTurn& turn) {
   if (turn.now <= turn.context.not_after) return {};
-  return fail(Reason::deadline_passed, "the request came to the mill after its not_after",
+  return fail(Reason::deadline_passed, "the request reached the mill after its not_after",
               "ask again, with a later not_after");
 }
 
 void JobActs::act(RequestKind kind, const Call& call, std::string_view name, Act act, Answer<CurrentJob> answer) const {
   const Result<JobName> found = find_job_name(gateway_, name);
-  const rml1::JobNumber number = found ? found->number : 0;
+  const jobs::JobNumber number = found ? found->number : 0;
   pipeline_.act(
       {kind, call, device_of(found)},
       [kind, number](const MillTurn& turn) -> Result<std::string> {
         if (const Result<void> in_time = check_in_time(turn); !in_time) return tl::unexpected(in_time.error());
-        const Result<rml1::Job> job = find_job(turn.controller, number);
+        const Result<jobs::Job> job = find_job(turn.controller, number);
         if (!job) return tl::unexpected(job.error());
         return fmt::format("{} {}", api::name(kind), number);
       },
       [number, act, answer](const MillTurn& turn, const MutationPtr& mutation) {
-        const Result<rml1::Job> job = find_job(turn.controller, number);
+        const Result<jobs::Job> job = find_job(turn.controller, number);
         const Result<void> done = job ? act(turn.controller, *job, turn) : tl::unexpected(job.error());
         if (!done) {
           mutation->failed(done.error());

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/mill_controller.h"
+#include "device/jobs/machine.h"
 #include "server/api/mill/job_upload.h"
 #include "server/api/request/call.h"
 #include "server/api/request/pipeline.h"
@@ -18,7 +18,7 @@ namespace axisgate::api {
 Result<void> check_in_time(const TurnOf<server::Mill>& turn);
 
 // Returns the job from the mill's queue. Fails with not_found.
-Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber number);
+Result<jobs::Job> find_job(const jobs::Machine& mill, jobs::JobNumber number);
 
 // Thread safe.
 class JobActs {
@@ -26,7 +26,7 @@ class JobActs {
   // The referenced objects must outlive this one.
   JobActs(server::Gateway& gateway, const MillPipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
-  using Act = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
+  using Act = std::function<Result<void>(jobs::Machine&, const jobs::Job&, const TurnOf<server::Mill>&)>;
   // Acts on the named job. Answers with the job's new state, once the spool has stored it. A repeated request does not
   // act again. Fails as MillPipeline::admit() and `act` do, and with not_found or deadline_passed.
   void act(RequestKind kind, const Call& call, std::string_view job, Act act, Answer<CurrentJob> answer) const;

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/rml1/language/diagnostic.h"
-
 namespace axisgate::api {
 
 Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector<std::string>& tools,
                          std::string_view mill) {
-  if (parts.size() > rml1::kPartsAtMost) {
+  if (parts.size() > jobs::kPartsAtMost) {
     return fail(Reason::invalid_request, fmt::format("the job has {} parts", parts.size()),
-                fmt::format("send at most {} as one job", rml1::kPartsAtMost));
+                fmt::format("send at most {} as one job", jobs::kPartsAtMost));
   }
   for (const PartToSend& part : parts) {
     if (part.bytes == 0) return fail(Reason::invalid_request, "a part of the job has no bytes", "leave it out");
@@ -24,24 +22,15 @@ Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector
   return {};
 }
 
-Result<void> check_warning_names(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (rml1::warning_named(name)) continue;
-    return fail(Reason::invalid_request, fmt::format("there is no warning \"{}\" that could be accepted", name),
-                fmt::format("warnings are {}", rml1::all_warning_names()));
-  }
-  return {};
-}
-
-JobCheck::JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
+JobCheck::JobCheck(const jobs::Model& model, jobs::CheckOptions options, std::size_t buffer,
                    const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted, JobPast before)
-    : profile_(profile),
+    : model_(model),
       options_(std::move(options)),
       buffer_(buffer),
       parts_(parts),
       accepted_(accepted),
       accepted_before_(std::move(before.accepted)),
-      check_(std::make_unique<rml1::Check>(profile_, options_)) {
+      check_(model_.make_check(options_)) {
   if (before.workpiece != nullptr) check_->continues(*before.workpiece);
 }
 
@@ -53,7 +42,6 @@ Result<void> JobCheck::feed(std::string_view bytes) {
     }
     const std::string_view piece = bytes.substr(0, part().bytes ? *part().bytes - come_ : bytes.size());
     check_->feed(piece);
-    pieces_.take(piece);
     come_ += piece.size();
     bytes.remove_prefix(piece.size());
     if (part().bytes != come_) continue;
@@ -83,10 +71,9 @@ Result<void> JobCheck::finish_part() {
   begin_ += std::exchange(come_, 0);
   const std::string& tool = part().tool;
   checked_.parts.push_back({tool, begin_});
-  pieces_ = {};
-  std::unique_ptr<rml1::Check> next;
+  std::unique_ptr<jobs::Check> next;
   if (checked_.parts.size() < parts_.size()) {
-    next = std::make_unique<rml1::Check>(profile_, options_);
+    next = model_.make_check(options_);
     next->continues(*check_);
   }
   check_ = std::move(next);
@@ -94,38 +81,31 @@ Result<void> JobCheck::finish_part() {
 }
 
 Result<void> JobCheck::judge_errors() const {
-  const rml1::Diagnostics& found = check_->diagnostics();
-  const auto all = found.in_order();
-  const auto first = std::ranges::find(all, rml1::Severity::error, &rml1::Diagnostic::severity);
-  if (first == all.end()) return {};
-  const std::uint64_t count = found.count(rml1::Severity::error);
+  const std::optional<jobs::FoundError> first = check_->error();
+  if (!first) return {};
   return fail(Reason::invalid_request,
               fmt::format("{}: error: {} [{}]{}", place_text(first->place), first->text, first->section,
-                          count == 1 ? "" : fmt::format("; {} more errors", count - 1)),
+                          first->more == 0 ? "" : fmt::format("; {} more errors", first->more)),
               "correct the job; `axisctl mill check` shows all errors");
 }
 
 void JobCheck::take_warnings() {
-  const rml1::Diagnostics& found = check_->diagnostics();
-  for (const rml1::Diagnostic& one : found.in_order()) {
-    if (!one.warning) continue;
-    const auto [kind, is_first] = warnings_.try_emplace(*one.warning);
+  for (const jobs::FoundWarning& one : check_->warnings()) {
+    const auto [found, is_first] = warnings_.try_emplace(one.name);
+    Found& all = found->second;
     if (is_first) {
-      kind->second.first = fmt::format("{}: {}", place_text(one.place), one.text);
+      all = {fmt::format("{}: {}", place_text(one.place), one.text), one.remedy, 0, ""};
     } else {
-      ++kind->second.more;
-      kind->second.last = place_text(one.place);
+      ++all.more;
+      all.last = place_text(one.place);
     }
-  }
-  for (const rml1::Diagnostics::Omitted& one : found.omitted()) {
-    if (!one.first.warning) continue;
-    warnings_[*one.first.warning].more += one.count;
-    warnings_[*one.first.warning].last = place_text(one.last);
+    all.more += one.more;
+    if (one.more > 0) all.last = place_text(one.last);
   }
 }
 
-bool JobCheck::is_accepted(rml1::Warning warning) const {
-  return std::ranges::find(accepted_, rml1::name(warning)) != accepted_.end() ||
+bool JobCheck::is_accepted(std::string_view warning) const {
+  return std::ranges::find(accepted_, warning) != accepted_.end() ||
          std::ranges::find(accepted_before_, warning) != accepted_before_.end();
 }
 
@@ -137,9 +117,9 @@ Result<void> JobCheck::judge_warnings() {
       checked_.accepted.push_back(warning);
       continue;
     }
-    names.emplace_back(rml1::name(warning));
+    names.push_back(warning);
     const std::string more = found.more == 0 ? "" : fmt::format(" ({} more, up to {})", found.more, found.last);
-    refused.push_back(fmt::format("{}: {}{}; {}", names.back(), found.first, more, rml1::remedy(warning)));
+    refused.push_back(fmt::format("{}: {}{}; {}", names.back(), found.first, more, found.remedy));
   }
   if (!refused.empty()) {
     return fail(Reason::invalid_request,
@@ -149,11 +129,10 @@ Result<void> JobCheck::judge_warnings() {
                 fmt::format("correct the job, or accept what is right: --accept {}", fmt::join(names, ",")));
   }
   for (const std::string& name : accepted_) {
-    const auto warning = rml1::warning_named(name);
-    if (!warning || !warnings_.contains(*warning)) unused.push_back(name);
+    if (!warnings_.contains(name)) unused.push_back(name);
   }
   if (unused.empty()) return {};
-  for (const auto& [warning, found] : warnings_) names.emplace_back(rml1::name(warning));
+  for (const auto& [warning, found] : warnings_) names.push_back(warning);
   return fail(Reason::invalid_request,
               fmt::format("the job has no warning {}; it has {}", fmt::join(unused, ", "),
                           names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))),
@@ -162,7 +141,7 @@ Result<void> JobCheck::judge_warnings() {
 
 // Checks that each piece fits into the buffer: without flow control the end of a longer piece would be lost.
 Result<void> JobCheck::check_pieces() const {
-  const auto& [begin, bytes] = pieces_.longest();
+  const auto& [begin, bytes] = check_->longest_piece();
   if (bytes <= buffer_) return {};
   return fail(
       Reason::invalid_request,
@@ -171,7 +150,7 @@ Result<void> JobCheck::check_pieces() const {
       "divide it into several commands, and leave out blanks in it");
 }
 
-std::string JobCheck::place_text(const rml1::Place& place) const {
+std::string JobCheck::place_text(const jobs::Place& place) const {
   return fmt::format("{}line {}, column {}", file_text(), place.line, place.column);
 }
 

@@ -15,46 +15,47 @@ namespace {
 
 using server::Mill;
 
-Result<void> check_streaming(const Mill& mill, const std::optional<rml1::Streaming>& streaming) {
-  if (streaming != rml1::Streaming::full || mill.config().holds_host_back) return {};
+Result<void> check_streaming(const Mill& mill, const std::optional<jobs::Streaming>& streaming) {
+  if (streaming != jobs::Streaming::full || mill.config().holds_host_back) return {};
   return fail(
       Reason::invalid_request,
       fmt::format("nothing holds the host back while the buffer of {} is full, so bytes would be lost", mill.name()),
       "send the job without a streaming of its own");
 }
 
-Result<rml1::CheckOptions> check_options(const Mill& mill, const JobToSend& job) {
+Result<jobs::CheckOptions> check_options(const Mill& mill, const JobToSend& job) {
   const server::MillConfig& config = mill.config();
-  Result<std::string> made_for = machine_with_profile(config, job.made_for);
-  if (!made_for) return tl::unexpected(made_for.error());
-  rml1::CheckOptions options;
+  jobs::CheckOptions options;
   options.stock = job.stock;
-  options.others = config.others;
-  options.made_for = *std::move(made_for);
+  if (!job.made_for.empty()) {
+    Result<std::string> made_for = config.model->machine_named(job.made_for);
+    if (!made_for) return tl::unexpected(made_for.error());
+    options.made_for = *std::move(made_for);
+  }
   if (job.origin.empty()) return options;
-  const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
+  const auto origin = std::ranges::find(config.origins, job.origin, &jobs::NamedOrigin::name);
   if (origin == config.origins.end()) {
     std::vector<std::string> names;
-    for (const server::NamedOrigin& one : config.origins) names.push_back(one.name);
+    for (const jobs::NamedOrigin& one : config.origins) names.push_back(one.name);
     return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), job.origin),
                 names.empty()
                     ? "name none: then it is the one that is set at the panel"
                     : fmt::format("it has {}; none is the one that is set at the panel", fmt::join(names, ", ")));
   }
-  options.origin = server::origin_of(*origin, config.profile);
+  options.origin = config.model->place_of(*origin);
   return options;
 }
 
-std::vector<PartToSend> parts_of(const rml1::Job& job) {
+std::vector<PartToSend> parts_of(const jobs::Job& job) {
   if (job.parts.size() == 1) return {{job.parts.front().tool}};
   std::vector<PartToSend> parts;
   std::uint64_t begin = 0;
-  for (const rml1::JobPart& part : job.parts) parts.push_back({part.tool, part.end - std::exchange(begin, part.end)});
+  for (const jobs::JobPart& part : job.parts) parts.push_back({part.tool, part.end - std::exchange(begin, part.end)});
   return parts;
 }
 
 // Describes the whole job, also for a rest, so that lines are counted as in its file.
-JobToSend copy_of(const rml1::Job& job, std::vector<std::string> accepted) {
+JobToSend copy_of(const jobs::Job& job, std::vector<std::string> accepted) {
   return {.title = job.name,
           .origin = job.setup.origin,
           .parts = parts_of(job),
@@ -63,9 +64,9 @@ JobToSend copy_of(const rml1::Job& job, std::vector<std::string> accepted) {
           .stock = job.stock};
 }
 
-Result<void> check_has_rest(const rml1::Job& job) {
+Result<void> check_has_rest(const jobs::Job& job) {
   const bool was_begun = job.executed || job.written || job.part > 0;
-  const bool is_cut_off = job.state == rml1::JobState::aborted || job.state == rml1::JobState::cancelled;
+  const bool is_cut_off = job.state == jobs::JobState::aborted || job.state == jobs::JobState::cancelled;
   if (is_cut_off && was_begun) return {};
   return fail(Reason::wrong_mode,
               fmt::format("{} is {}{}: it has no rest", text_of(job), name(job.state),
@@ -82,9 +83,12 @@ Result<std::unique_ptr<JobUpload>> JobSending::begin_upload(RequestKind kind, co
   if (const Result<void> parts = check_parts(job.parts, mill.config().tools, mill.name()); !parts)
     return tl::unexpected(parts.error());
   if (const Result<void> can = check_streaming(mill, job.streaming); !can) return tl::unexpected(can.error());
-  if (const Result<void> names = check_warning_names(job.accepted_warnings); !names)
-    return tl::unexpected(names.error());
-  const Result<rml1::CheckOptions> options = check_options(mill, job);
+  for (const std::string& name : job.accepted_warnings) {
+    if (const Result<void> known = mill.config().model->check_warning_name(name); !known) {
+      return tl::unexpected(known.error());
+    }
+  }
+  const Result<jobs::CheckOptions> options = check_options(mill, job);
   if (!options) return tl::unexpected(options.error());
   auto spooled = mill.spool().begin(mill.name(), {.name = job.title,
                                                   .who = admitted.caller.who,
@@ -107,7 +111,7 @@ Result<std::unique_ptr<JobUpload>> JobSending::send(const Call& call, std::strin
       return fail(Reason::invalid_request, fmt::format("{} is a job of another mill", job.continues),
                   fmt::format("name a job of {}", mill.name()));
     }
-    const Result<rml1::Job> ended = server::ended_job(mill.spool(), mill.name(), named->number);
+    const Result<jobs::Job> ended = server::ended_job(mill.spool(), mill.name(), named->number);
     if (!ended) return tl::unexpected(ended.error());
     const Result<void> same = check_same_workpiece(mill, *ended, job.origin, job.stock);
     if (!same) return tl::unexpected(same.error());
@@ -117,14 +121,14 @@ Result<std::unique_ptr<JobUpload>> JobSending::send(const Call& call, std::strin
 }
 
 Result<std::shared_ptr<JobUpload>> JobSending::begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
-                                                            rml1::JobNumber number, const JobToRepeat& how) const {
+                                                            jobs::JobNumber number, const JobToRepeat& how) const {
   Mill& mill = *admitted.device;
-  const Result<rml1::Job> ended = server::ended_job(mill.spool(), mill.name(), number);
+  const Result<jobs::Job> ended = server::ended_job(mill.spool(), mill.name(), number);
   if (!ended) return tl::unexpected(ended.error());
   JobsBefore before{.accepted = ended->accepted};
   if (how.rest) {
     if (const Result<void> has = check_has_rest(*ended); !has) return tl::unexpected(has.error());
-    const Result<rml1::Place> from =
+    const Result<jobs::Place> from =
         server::chosen_rest(mill.spool(), mill.name(), mill.config(), *ended, how.from.line, how.from.column);
     if (!from) return tl::unexpected(from.error());
     before.continues = number;
@@ -152,8 +156,8 @@ void JobSending::repeat(const Call& call, std::string_view name, JobToRepeat how
     (*upload)->finish(call.digest, [upload, answer](Result<CurrentJob> job) { answer(std::move(job)); });
   };
   Mill& mill = *admitted->device;
-  mill.post([&mill, worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](
-                rml1::MillController&, TimePoint) {
+  mill.post([&mill, worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](jobs::Machine&,
+                                                                                                       TimePoint) {
     mill.when_kept([worker, on_worker, identity] { worker->post(identity, on_worker); });
   });
 }

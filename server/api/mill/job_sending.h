@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 #include "server/api/mill/job_starts.h"
 #include "server/api/mill/job_upload.h"
 #include "server/api/request/call.h"
@@ -43,7 +43,7 @@ class JobSending {
                                                   const MillPipeline::Admitted& admitted, JobToSend job,
                                                   JobsBefore before) const;
   Result<std::shared_ptr<JobUpload>> begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
-                                                  rml1::JobNumber number, const JobToRepeat& how) const;
+                                                  jobs::JobNumber number, const JobToRepeat& how) const;
 
   server::Gateway& gateway_;
   const MillPipeline& pipeline_;

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/case_conv.hpp>
-#include <boost/algorithm/string/predicate.hpp>
 #include <string>
 #include <vector>
 
@@ -17,9 +15,9 @@ bool has(const std::vector<std::string>& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-std::string tools_text(const std::vector<rml1::JobPart>& parts) {
+std::string tools_text(const std::vector<jobs::JobPart>& parts) {
   std::vector<std::string> tools;
-  for (const rml1::JobPart& part : parts) tools.push_back(part.tool);
+  for (const jobs::JobPart& part : parts) tools.push_back(part.tool);
   return fmt::format("{}", fmt::join(tools, ", "));
 }
 
@@ -32,13 +30,13 @@ bool is_at_station(const server::Mill& mill, std::string_view who) {
 
 }  // namespace
 
-Result<void> check_setup(const server::Mill& mill, const rml1::Job& job) {
+Result<void> check_setup(const server::Mill& mill, const jobs::Job& job) {
   const server::MillConfig& config = mill.config();
   const bool has_origin =
       job.setup.origin.empty() ||
-      std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
-  const auto has_tool = [&](const rml1::JobPart& part) { return has(config.tools, part.tool); };
-  const bool as_checked = job.setup.profile == config.profile.name && has_origin &&
+      std::ranges::find(config.origins, job.setup.origin, &jobs::NamedOrigin::name) != config.origins.end();
+  const auto has_tool = [&](const jobs::JobPart& part) { return has(config.tools, part.tool); };
+  const bool as_checked = job.setup.profile == config.model->name() && has_origin &&
                           job.checked_for == server::checked_for(config, job.setup.origin);
   if (as_checked && std::ranges::all_of(job.parts, has_tool)) return {};
   return fail(
@@ -47,19 +45,6 @@ Result<void> check_setup(const server::Mill& mill, const rml1::Job& job) {
           "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
           text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),
       "cancel it, and send it again");
-}
-
-Result<std::string> machine_with_profile(const server::MillConfig& config, std::string_view profile) {
-  using boost::algorithm::iequals;
-  if (profile.empty()) return std::string();
-  if (profile == config.profile_name || iequals(profile, config.profile.name)) return config.profile.name;
-  std::vector<std::string> names;
-  for (const rml1::KnownMachine& other : config.others) {
-    if (iequals(profile, other.name)) return other.name;
-    names.push_back(boost::algorithm::to_lower_copy(other.name));
-  }
-  return fail(Reason::invalid_request, fmt::format("there is no profile \"{}\"", profile),
-              fmt::format("profiles are {}", fmt::join(names, ", ")));
 }
 
 Result<void> check_at_station(const server::Mill& mill, std::string_view who) {

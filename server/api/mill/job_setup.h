@@ -5,17 +5,13 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 #include "server/devices/mill.h"
 
 namespace axisgate::api {
 
 // Fails with stale_setpoint if the configuration no longer matches the one for which the job was checked.
-Result<void> check_setup(const server::Mill& mill, const rml1::Job& job);
-
-// Returns the name of the machine that has the profile; empty if `profile` is empty. Fails with invalid_request if
-// there is no such profile.
-Result<std::string> machine_with_profile(const server::MillConfig& config, std::string_view profile);
+Result<void> check_setup(const server::Mill& mill, const jobs::Job& job);
 
 // Fails with not_allowed if the caller is not at the mill's station.
 Result<void> check_at_station(const server::Mill& mill, std::string_view who);

@@ -13,9 +13,9 @@ namespace axisgate::api {
 namespace {
 
 // Returns the job as it was last published. On the strand, `act` also receives the job as it is then.
-Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
+Result<jobs::Job> published_job(server::Mill& mill, jobs::JobNumber number) {
   const auto now = mill.newest().get().value;
-  const auto found = std::ranges::find(now->jobs, number, &rml1::Job::number);
+  const auto found = std::ranges::find(now->jobs, number, &jobs::Job::number);
   if (found != now->jobs.end()) return *found;
   return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
               "`axisctl mill queue` lists them");
@@ -23,21 +23,21 @@ Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
 
 // Returns the problem of a job that was not read because of its published state, although its state allows that now. In
 // most cases the state has not changed, and the request is refused because of it.
-Problem changed_meanwhile(const rml1::Job& job) {
+Problem changed_meanwhile(const jobs::Job& job) {
   return {.reason = Reason::wrong_mode,
           .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
           .hint = "ask again"};
 }
 
 // Returns the first command of the rest, and the duration of the rest.
-Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToChoose& from) {
+Result<jobs::JobRest> rest_of(server::Mill& mill, jobs::Job job, const LineToChoose& from) {
   const auto at = server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
   if (!at) return tl::unexpected(at.error());
   job.setup.from = *at;
   const auto prepared =
       server::prepared_job(mill.spool(), mill.name(), mill.config(), job, mill.newest().get().value->measured_pace);
   if (!prepared) return tl::unexpected(prepared.error());
-  return rml1::JobRest{*at, (*prepared)->times().whole(), (*prepared)->plan().run_on};
+  return jobs::JobRest{*at, (*prepared)->takes(), (*prepared)->run_on()};
 }
 
 }  // namespace
@@ -51,28 +51,28 @@ void JobStarts::read_and_act(RequestKind kind, const Call& call, std::string_vie
   if (!admitted) return answer(tl::unexpected(admitted.error()));
   const auto on_worker = [this, kind, call, name = std::string(name), read, act, answer, &mill = *admitted->device,
                           number = found->number] {
-    const auto came = published_job(mill, number).and_then([&](const rml1::Job& job) { return read(mill, job); });
+    const auto came = published_job(mill, number).and_then([&](const jobs::Job& job) { return read(mill, job); });
     acts_.act(
         kind, call, name,
-        [came, act](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn) {
+        [came, act](jobs::Machine& controller, const jobs::Job& it, const TurnOf<server::Mill>& turn) {
           return act(controller, it, turn, came);
         },
         answer);
   };
   admitted->device->post([worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](
-                             rml1::MillController&, TimePoint) { worker->post(identity, on_worker); });
+                             jobs::Machine&, TimePoint) { worker->post(identity, on_worker); });
 }
 
 void JobStarts::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
-  using Prepared = Result<std::shared_ptr<const rml1::PreparedJob>>;
+  using Prepared = Result<std::shared_ptr<const jobs::PreparedJob>>;
   read_and_act(
       RequestKind::start_job, call, name,
-      [](server::Mill& mill, const rml1::Job& job) -> Prepared {
-        if (job.state != rml1::JobState::confirmed) return tl::unexpected(changed_meanwhile(job));
+      [](server::Mill& mill, const jobs::Job& job) -> Prepared {
+        if (job.state != jobs::JobState::confirmed) return tl::unexpected(changed_meanwhile(job));
         return server::prepared_job(mill.spool(), mill.name(), mill.config(), job,
                                     mill.newest().get().value->measured_pace);
       },
-      [](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
+      [](jobs::Machine& controller, const jobs::Job& it, const TurnOf<server::Mill>& turn,
          const Prepared& prepared) -> Result<void> {
         if (const Result<void> can = controller.check_startable(it.number, turn.now); !can) return can;
         if (!prepared) return tl::unexpected(prepared.error());
@@ -84,19 +84,19 @@ void JobStarts::start(const Call& call, std::string_view name, Answer<CurrentJob
 
 void JobStarts::choose_rest(const Call& call, std::string_view name, LineToChoose from,
                             Answer<CurrentJob> answer) const {
-  const auto can_be_chosen = [](const rml1::Job& job) {
-    return rml1::next(job.state, rml1::JobEvent::choose_rest).has_value();
+  const auto can_be_chosen = [](const jobs::Job& job) {
+    return jobs::next(job.state, jobs::JobEvent::choose_rest).has_value();
   };
   read_and_act(
       RequestKind::continue_job, call, name,
-      [from, can_be_chosen](server::Mill& mill, const rml1::Job& job) -> Result<rml1::JobRest> {
+      [from, can_be_chosen](server::Mill& mill, const jobs::Job& job) -> Result<jobs::JobRest> {
         if (!can_be_chosen(job)) return tl::unexpected(changed_meanwhile(job));
         return rest_of(mill, job, from);
       },
-      [can_be_chosen](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
-                      const Result<rml1::JobRest>& rest) -> Result<void> {
+      [can_be_chosen](jobs::Machine& controller, const jobs::Job& it, const TurnOf<server::Mill>& turn,
+                      const Result<jobs::JobRest>& rest) -> Result<void> {
         if (can_be_chosen(it) && !rest) return tl::unexpected(rest.error());
-        return controller.choose_rest(it.number, rest.value_or(rml1::JobRest()), turn.caller.who, turn.now);
+        return controller.choose_rest(it.number, rest.value_or(jobs::JobRest()), turn.caller.who, turn.now);
       },
       std::move(answer));
 }

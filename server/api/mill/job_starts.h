@@ -19,7 +19,7 @@ struct LineToChoose {
   std::uint64_t line = 0, column = 1;
 };
 
-// Thread safe. Both members also fail as JobActs::act() and rml1::MillController do.
+// Thread safe. Both members also fail as JobActs::act() and jobs::Machine do.
 class JobStarts {
  public:
   // The referenced objects must outlive this one. `worker` is shared with tasks that are posted to a mill.

@@ -15,22 +15,22 @@ namespace {
 using server::Mill;
 using MillTurn = TurnOf<Mill>;
 
-bool same_parts(const rml1::Job& one, const rml1::Job& other) {
-  return std::ranges::equal(one.parts, other.parts, [](const rml1::JobPart& a, const rml1::JobPart& b) {
+bool same_parts(const jobs::Job& one, const jobs::Job& other) {
+  return std::ranges::equal(one.parts, other.parts, [](const jobs::JobPart& a, const jobs::JobPart& b) {
     return a.tool == b.tool && a.end == b.end;
   });
 }
 
 // Returns the job of the first of two requests with one id: the newest job that is equal in all members.
-Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
-  const auto same = [&](const rml1::Job& one) {
+Result<CurrentJob> sent_before(Mill& mill, const std::vector<jobs::Job>& jobs, const jobs::Job& again, TimePoint now) {
+  const auto same = [&](const jobs::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
            one.setup.origin == again.setup.origin && same_parts(one, again) && one.streaming == again.streaming &&
            one.stock == again.stock && one.owner == again.owner && one.name == again.name &&
            one.continues == again.continues;
   };
-  const rml1::Job* newest = nullptr;
-  for (const rml1::Job& job : jobs) {
+  const jobs::Job* newest = nullptr;
+  for (const jobs::Job& job : jobs) {
     if (same(job) && (newest == nullptr || newest->number < job.number)) newest = &job;
   }
   if (newest != nullptr) return CurrentJob{&mill, *newest, server::moment_of(now)};
@@ -39,9 +39,9 @@ Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, c
 
 }  // namespace
 
-CurrentJob current(const MillTurn& turn, const rml1::Job& before) {
+CurrentJob current(const MillTurn& turn, const jobs::Job& before) {
   CurrentJob now{&turn.device, before, server::moment_of(turn.now)};
-  for (const rml1::Job& job : turn.controller.jobs()) {
+  for (const jobs::Job& job : turn.controller.jobs()) {
     if (job.number == before.number) now.job = job;
   }
   const auto running = turn.controller.running(turn.now);
@@ -51,7 +51,7 @@ CurrentJob current(const MillTurn& turn, const rml1::Job& before) {
 
 JobUpload::JobUpload(RequestKind kind, const Call& call, const MillPipeline::Admitted& admitted,
                      const MillPipeline& pipeline, FairWorker& worker, JobToSend job, JobsBefore before,
-                     const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
+                     const jobs::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
     : kind_(kind),
       call_(call),
       mill_(*admitted.device),
@@ -62,7 +62,7 @@ JobUpload::JobUpload(RequestKind kind, const Call& call, const MillPipeline::Adm
       before_(std::move(before)),
       options_(options),
       spooled_(std::move(spooled)),
-      check_(mill_.config().profile, options, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings,
+      check_(*mill_.config().model, options, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings,
              {before_.accepted}) {}
 
 // Checks only jobs with a new workpiece. Otherwise the jobs before are played first, which takes long: see finish().
@@ -77,7 +77,7 @@ Result<CheckedJob> JobUpload::checked() {
   if (before_.cut == 0) return check_.finish();
   const auto workpiece = workpiece_after(mill_, before_.cut, options_);
   if (!workpiece) return tl::unexpected(workpiece.error());
-  JobCheck check(mill_.config().profile, options_, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings,
+  JobCheck check(*mill_.config().model, options_, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings,
                  {before_.accepted, workpiece->get()});
   Result<void> fed;
   const Result<void> read = spooled_->read_back([&](std::string_view piece) {
@@ -93,7 +93,7 @@ void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
 }
 
 std::string JobUpload::facts(const CheckedJob& checked) const {
-  return server::facts_of({.setup = {"", mill_.config().profile.name, job_.origin, "", {}, before_.from},
+  return server::facts_of({.setup = {"", std::string(mill_.config().model->name()), job_.origin, "", {}, before_.from},
                            .parts = checked.parts,
                            .part = before_.part,
                            .leaves = checked.leaves,
@@ -128,7 +128,7 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
   call_.digest = std::move(digest);
-  rml1::Job job = server::job_of(*spooled);
+  jobs::Job job = server::job_of(*spooled);
   const auto drop = [&mill = mill_, number = job.number] { mill.drop_spooled(number); };
   const Result<void> planned =
       server::plan_job(mill_.spool(), mill_.name(), mill_.config(), job, mill_.newest().get().value->measured_pace);
@@ -154,7 +154,7 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
         drop();
         repeat_done(known, [&](const Result<void>& done) {
           if (!done) return answer(tl::unexpected(done.error()));
-          mill.post([&mill, job, answer](rml1::MillController& controller, TimePoint now) {
+          mill.post([&mill, job, answer](jobs::Machine& controller, TimePoint now) {
             answer(sent_before(mill, controller.jobs(), job, now));
           });
         });

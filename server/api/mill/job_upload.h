@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "device/core/problem.h"
-#include "device/rml1/check/check.h"
-#include "device/rml1/mill/mill_controller.h"
+#include "device/jobs/check.h"
+#include "device/jobs/machine.h"
 #include "server/api/mill/job_check.h"
 #include "server/api/request/call.h"
 #include "server/api/request/fair_worker.h"
@@ -25,32 +25,32 @@ using MillPipeline = PipelineOf<server::Mill>;
 // A CurrentJob is a job as it is now.
 struct CurrentJob {
   const server::Mill* mill = nullptr;  // never null
-  rml1::Job job;
+  jobs::Job job;
   server::Moment clock;                 // converts the job's times for people
-  std::optional<rml1::RunOn> run_on{};  // nullopt unless the job runs
+  std::optional<jobs::RunOn> run_on{};  // nullopt unless the job runs
 };
 
 // Returns the job in its newest state, or `before` if it has just left the queue.
-CurrentJob current(const TurnOf<server::Mill>& turn, const rml1::Job& before);
+CurrentJob current(const TurnOf<server::Mill>& turn, const jobs::Job& before);
 
 // A JobToSend describes a job before its bytes arrive.
 struct JobToSend {
   std::string title, origin;
   std::vector<PartToSend> parts;
-  std::vector<std::string> accepted_warnings;  // names of rml1::Warning
-  std::optional<rml1::Streaming> streaming{};  // nullopt: the mill's default
-  std::optional<rml1::Stock> stock{};
+  std::vector<std::string> accepted_warnings;  // of the check
+  std::optional<jobs::Streaming> streaming{};  // nullopt: the mill's default
+  std::optional<jobs::Stock> stock{};
   std::string made_for{};   // name of a profile; empty: the job itself decides
   std::string continues{};  // name of the job whose workpiece it continues; empty: a new workpiece
 };
 
 // JobsBefore relates a new job to ended jobs.
 struct JobsBefore {
-  rml1::JobNumber continues = 0;            // see rml1::Job::continues
-  rml1::JobNumber cut = 0;                  // newest job that cut the workpiece before; 0: none
+  jobs::JobNumber continues = 0;            // see jobs::Job::continues
+  jobs::JobNumber cut = 0;                  // newest job that cut the workpiece before; 0: none
   std::optional<std::uint64_t> surfaces{};  // MillController::surfaces() when job `cut` began; nullopt: any
-  std::vector<rml1::Warning> accepted{};    // accepted for the repeated job, in addition to those of JobToSend
-  std::optional<rml1::Place> from{};        // start of the rest of the repeated job, in `part`
+  std::vector<std::string> accepted{};      // accepted for the repeated job, in addition to those of JobToSend
+  std::optional<jobs::Place> from{};        // start of the rest of the repeated job, in `part`
   std::size_t part = 0;
 };
 
@@ -59,7 +59,7 @@ class JobUpload {
  public:
   // `kind` is send_job or repeat_job.
   JobUpload(RequestKind kind, const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline,
-            FairWorker& worker, JobToSend job, JobsBefore before, const rml1::CheckOptions& options,
+            FairWorker& worker, JobToSend job, JobsBefore before, const jobs::CheckOptions& options,
             std::unique_ptr<server::spool::Upload> spooled);
 
   // Fails with queue_full if the spool has no room for more, and as JobCheck::feed() does.
@@ -83,7 +83,7 @@ class JobUpload {
   FairWorker& worker_;
   const JobToSend job_;
   const JobsBefore before_;
-  const rml1::CheckOptions options_;
+  const jobs::CheckOptions options_;
   const std::unique_ptr<server::spool::Upload> spooled_;
   JobCheck check_;  // used if the workpiece is new
 };

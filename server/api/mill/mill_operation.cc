@@ -15,45 +15,43 @@ using server::Mill;
 using HandTurn = TurnOf<Mill>;
 
 // Returns the act with the height of the named origin.
-Result<rml1::HandAct> act_of(const HandRequest& request, const Mill& mill) {
+Result<jobs::HandAct> act_of(const HandRequest& request, const Mill& mill) {
   if (request.origin.empty()) return request.act;
-  const auto* surface = std::get_if<rml1::SetSurface>(&request.act);
+  const auto* surface = std::get_if<jobs::SetSurface>(&request.act);
   if (surface != nullptr && surface->at) {
     return fail(Reason::invalid_request,
                 fmt::format("Z0 cannot be both at the origin \"{}\" and at z = {}", request.origin, *surface->at),
                 "name the origin or z, not both");
   }
   const auto& origins = mill.config().origins;
-  const auto named = std::ranges::find(origins, request.origin, &server::NamedOrigin::name);
+  const auto named = std::ranges::find(origins, request.origin, &jobs::NamedOrigin::name);
   if (named == origins.end()) {
     return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), request.origin),
                 "`axisctl mill queue` lists them");
   }
-  if (named->z) return rml1::SetSurface{named->z};
+  if (named->z) return jobs::SetSurface{named->z};
   return fail(Reason::invalid_request, fmt::format("the origin {} of {} has no height", named->name, mill.name()),
               "give it one in the configuration: `z`; X and Y are set at the mill's panel");
 }
 
 Result<std::string> describe_if_possible(const HandTurn& turn, const HandRequest& request) {
   if (const Result<void> in_time = check_in_time(turn); !in_time) return tl::unexpected(in_time.error());
-  const Result<rml1::HandAct> act = act_of(request, turn.device);
+  const Result<jobs::HandAct> act = act_of(request, turn.device);
   if (!act) return tl::unexpected(act.error());
   return text_of(*act);
 }
 
 Result<Duration> do_it(const HandTurn& turn, const HandRequest& request) {
-  const Result<rml1::HandAct> act = act_of(request, turn.device);
+  const Result<jobs::HandAct> act = act_of(request, turn.device);
   if (!act) return tl::unexpected(act.error());
   return turn.controller.operate(*act, turn.context, turn.now);
 }
 
 // Returns the longest duration, as it was answered to the first request.
 Result<Duration> longest_of(const HandRequest& request, const Mill& mill) {
-  const Result<rml1::HandAct> act = act_of(request, mill);
+  const Result<jobs::HandAct> act = act_of(request, mill);
   if (!act) return tl::unexpected(act.error());
-  return words_of(*act, mill.config().profile, mill.config().sending.slack).map([](const rml1::HandWords& words) {
-    return words.longest;
-  });
+  return mill.config().model->longest(*act, mill.config().sending.slack);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "device/core/time.h"
-#include "device/rml1/mill/by_hand.h"
+#include "device/jobs/hand_act.h"
 #include "server/api/mill/job_acts.h"
 #include "server/api/request/call.h"
 #include "server/gateway.h"
@@ -13,7 +13,7 @@
 namespace axisgate::api {
 
 struct HandRequest {
-  rml1::HandAct act;
+  jobs::HandAct act;
   std::string origin{};  // for SetSurface: a configured origin with a height; empty: none is named
 };
 

@@ -80,7 +80,7 @@ void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view devi
       [answer](Mill& mill, const Result<Known>& known) {
         repeat_done(known, [&](const Result<void>& done) {
           if (!done) return answer(tl::unexpected(done.error()));
-          mill.post([&mill, answer](rml1::MillController& controller, TimePoint at) {
+          mill.post([&mill, answer](jobs::Machine& controller, TimePoint at) {
             answer(CurrentRun{&mill, controller.running(at), server::moment_of(at)});
           });
         });
@@ -108,7 +108,7 @@ void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> 
                   if (!turn.controller.abort(turn.context, turn.now)) {
                     return respond(tl::unexpected(not_sent_to(turn.device)));
                   }
-                  if (const rml1::JobNumber number = turn.controller.running_job(); number != 0) {
+                  if (const jobs::JobNumber number = turn.controller.running_job(); number != 0) {
                     run.running = turn.controller.running(turn.now);
                     run.executed = find_job(turn.controller, number)->executed;
                   }

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/mill_controller.h"
+#include "device/jobs/machine.h"
 #include "server/api/mill/job_acts.h"
 #include "server/api/mill/job_upload.h"
 #include "server/api/request/call.h"
@@ -20,9 +20,9 @@ namespace axisgate::api {
 // A CurrentRun is the running job; `running` is nullopt if no job runs.
 struct CurrentRun {
   const server::Mill* mill = nullptr;  // never null
-  std::optional<rml1::RunningJob> running;
+  std::optional<jobs::RunningJob> running;
   server::Moment clock;
-  std::optional<rml1::PlaceRange> executed{};  // rml1::Job::executed of the running job
+  std::optional<jobs::PlaceRange> executed{};  // jobs::Job::executed of the running job
 };
 
 struct MillState {
@@ -33,7 +33,7 @@ struct MillState {
 // Returns the problem of an abort that waits for the line.
 Problem not_sent_to(const server::Mill& mill);
 
-// Thread safe. All members also fail as MillPipeline::admit() and rml1::MillController do.
+// Thread safe. All members also fail as MillPipeline::admit() and jobs::Machine do.
 class Mills {
  public:
   // The referenced objects must outlive this one.

@@ -19,16 +19,16 @@ using MillTurn = TurnOf<server::Mill>;
 bool is_admin(const MillTurn& turn) { return turn.caller.role == server::Role::admin; }
 
 // `act` is a verb for the message: "cancel".
-Result<void> check_owner(const MillTurn& turn, const rml1::Job& job, std::string_view act) {
+Result<void> check_owner(const MillTurn& turn, const jobs::Job& job, std::string_view act) {
   if (is_admin(turn) || server::is_certainly(turn.caller.who, job.owner)) return {};
   return fail(Reason::not_allowed, fmt::format("{} is not yours", text_of(job)),
               fmt::format("its owner or an administrator can {} it", act));
 }
 
 // Returns the waiting jobs of the caller, or of all callers that the queue counts as the same one.
-Result<std::vector<rml1::JobNumber>> waiting_jobs_of(const std::string& who, const MillTurn& turn) {
-  std::vector<rml1::JobNumber> found;
-  for (const rml1::Job& job : turn.controller.jobs()) {
+Result<std::vector<jobs::JobNumber>> waiting_jobs_of(const std::string& who, const MillTurn& turn) {
+  std::vector<jobs::JobNumber> found;
+  for (const jobs::Job& job : turn.controller.jobs()) {
     const bool is_theirs = server::queued_as(job.owner) == server::queued_as(who);
     if (is_theirs && waits_to_begin(job)) found.push_back(job.number);
   }
@@ -39,11 +39,11 @@ Result<std::vector<rml1::JobNumber>> waiting_jobs_of(const std::string& who, con
 
 }  // namespace
 
-void WaitingJobs::confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen,
+void WaitingJobs::confirm(const Call& call, std::string_view job, const jobs::JobSetup& seen,
                           Answer<CurrentJob> answer) const {
   acts_.act(
       RequestKind::confirm_job, call, job,
-      [seen](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+      [seen](jobs::Machine& mill, const jobs::Job& it, const MillTurn& turn) -> Result<void> {
         if (const Result<void> there = check_at_station(turn.device, turn.caller.who); !there) return there;
         const Result<void> fits = check_setup(turn.device, it);
         return fits ? mill.confirm(it.number, seen, turn.caller.who, turn.now) : fits;
@@ -54,7 +54,7 @@ void WaitingJobs::confirm(const Call& call, std::string_view job, const rml1::Jo
 void WaitingJobs::done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
   acts_.act(
       RequestKind::report_job_done, call, job,
-      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
+      [](jobs::Machine& mill, const jobs::Job& it, const MillTurn& turn) {
         return mill.done(it.number, turn.caller.who, turn.now);
       },
       std::move(answer));
@@ -63,7 +63,7 @@ void WaitingJobs::done(const Call& call, std::string_view job, Answer<CurrentJob
 void WaitingJobs::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
   acts_.act(
       RequestKind::cancel_job, call, job,
-      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+      [](jobs::Machine& mill, const jobs::Job& it, const MillTurn& turn) -> Result<void> {
         const Result<void> may = check_owner(turn, it, "cancel");
         return may ? mill.cancel(it.number, turn.caller.who, turn.now) : may;
       },
@@ -82,13 +82,13 @@ void WaitingJobs::cancel_all(const Call& call, std::string_view device, std::str
       {RequestKind::cancel_jobs, call, find_mill(gateway_, device), fault},
       [who](const MillTurn& turn) -> Result<std::string> {
         if (const Result<void> in_time = check_in_time(turn); !in_time) return tl::unexpected(in_time.error());
-        return waiting_jobs_of(who, turn).map([](const std::vector<rml1::JobNumber>& jobs) {
+        return waiting_jobs_of(who, turn).map([](const std::vector<jobs::JobNumber>& jobs) {
           return fmt::format("{} {}", api::name(RequestKind::cancel_jobs), fmt::join(jobs, ", "));
         });
       },
       [who, answer](const MillTurn& turn, const MutationPtr& mutation) {
-        const std::vector<rml1::JobNumber> jobs = waiting_jobs_of(who, turn).value();
-        for (const rml1::JobNumber job : jobs) (void)turn.controller.cancel(job, turn.caller.who, turn.now);
+        const std::vector<jobs::JobNumber> jobs = waiting_jobs_of(who, turn).value();
+        for (const jobs::JobNumber job : jobs) (void)turn.controller.cancel(job, turn.caller.who, turn.now);
         mutation->acted(server::journal::answer_of(jobs));
         turn.device.when_kept([answer, cancelled = CancelledJobs{&turn.device, jobs}] { answer(cancelled); });
       },
@@ -104,10 +104,10 @@ void WaitingJobs::cancel_all(const Call& call, std::string_view device, std::str
 void WaitingJobs::move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
   acts_.act(
       RequestKind::move_job, call, job,
-      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+      [](jobs::Machine& mill, const jobs::Job& it, const MillTurn& turn) -> Result<void> {
         const Result<void> may = check_owner(turn, it, "move");
         if (!may) return may;
-        return mill.move_first(it.number, is_admin(turn) ? rml1::Overtaken::all : rml1::Overtaken::of_its_owner,
+        return mill.move_first(it.number, is_admin(turn) ? jobs::Overtaken::all : jobs::Overtaken::of_its_owner,
                                turn.caller.who, turn.now);
       },
       std::move(answer));

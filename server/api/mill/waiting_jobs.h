@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 #include "server/api/mill/job_acts.h"
 #include "server/api/mill/job_upload.h"
 #include "server/api/request/call.h"
@@ -16,10 +16,10 @@ namespace axisgate::api {
 // The cancelled jobs in the order of the queue; at least one.
 struct CancelledJobs {
   const server::Mill* mill = nullptr;  // never null
-  std::vector<rml1::JobNumber> jobs;
+  std::vector<jobs::JobNumber> jobs;
 };
 
-// Thread safe. All members also fail as JobActs::act() and rml1::MillController do.
+// Thread safe. All members also fail as JobActs::act() and jobs::Machine do.
 class WaitingJobs {
  public:
   // The referenced objects must outlive this one.
@@ -27,7 +27,7 @@ class WaitingJobs {
       : gateway_(gateway), pipeline_(pipeline), acts_(acts) {}
 
   // Fails with not_allowed if the caller is not at the mill's station.
-  void confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen, Answer<CurrentJob> answer) const;
+  void confirm(const Call& call, std::string_view job, const jobs::JobSetup& seen, Answer<CurrentJob> answer) const;
   // Fails with not_allowed if the caller is neither the job's owner nor an administrator.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   // Cancels all jobs of `who` that wait to begin. Fails with not_found if there is none.

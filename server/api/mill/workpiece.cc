@@ -11,7 +11,7 @@
 namespace axisgate::api {
 namespace {
 
-std::string stock_text(const std::optional<rml1::Stock>& stock) {
+std::string stock_text(const std::optional<jobs::Stock>& stock) {
   return stock ? fmt::format("a stock of {:g} x {:g} x {:g} mm", stock->x, stock->y, stock->z) : "no stock";
 }
 
@@ -20,11 +20,11 @@ std::string origin_text(std::string_view origin) {
 }
 
 // Returns the newest job last.
-Result<std::vector<rml1::Job>> chain_to(const server::Mill& mill, rml1::JobNumber newest) {
-  std::vector<rml1::Job> jobs;
+Result<std::vector<jobs::Job>> chain_to(const server::Mill& mill, jobs::JobNumber newest) {
+  std::vector<jobs::Job> jobs;
   // Each job continues an earlier one, so the loop ends.
-  for (rml1::JobNumber number = newest; number != 0; number = jobs.front().continues) {
-    Result<rml1::Job> job = server::ended_job(mill.spool(), mill.name(), number);
+  for (jobs::JobNumber number = newest; number != 0; number = jobs.front().continues) {
+    Result<jobs::Job> job = server::ended_job(mill.spool(), mill.name(), number);
     if (!job) return tl::unexpected(job.error());
     jobs.insert(jobs.begin(), *std::move(job));
   }
@@ -33,12 +33,12 @@ Result<std::vector<rml1::Job>> chain_to(const server::Mill& mill, rml1::JobNumbe
 
 }  // namespace
 
-Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& ended, std::string_view origin,
-                                  const std::optional<rml1::Stock>& stock) {
+Result<void> check_same_workpiece(const server::Mill& mill, const jobs::Job& ended, std::string_view origin,
+                                  const std::optional<jobs::Stock>& stock) {
   const auto differs = [&ended](const std::string& how, std::string hint) {
     return fail(Reason::stale_setpoint, fmt::format("{} {}", text_of(ended), how), std::move(hint));
   };
-  if (ended.state != rml1::JobState::done) {
+  if (ended.state != jobs::JobState::done) {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(ended), name(ended.state)),
                 "a job continues only one that a person has seen: DONE");
   }
@@ -61,17 +61,17 @@ Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& end
   return {};
 }
 
-Result<std::unique_ptr<rml1::Check>> workpiece_after(const server::Mill& mill, rml1::JobNumber number,
-                                                     const rml1::CheckOptions& options) {
-  const Result<std::vector<rml1::Job>> jobs = chain_to(mill, number);
+Result<std::unique_ptr<jobs::Check>> workpiece_after(const server::Mill& mill, jobs::JobNumber number,
+                                                     const jobs::CheckOptions& options) {
+  const Result<std::vector<jobs::Job>> jobs = chain_to(mill, number);
   if (!jobs) return tl::unexpected(jobs.error());
-  std::unique_ptr<rml1::Check> last;
-  for (rml1::Job job : *jobs) {
+  std::unique_ptr<jobs::Check> last;
+  for (jobs::Job job : *jobs) {
     const Result<std::string> bytes = mill.spool().read(mill.name(), job.number);
     if (!bytes) return tl::unexpected(bytes.error());
     for (std::size_t part = 0; part < job.parts.size(); ++part) {
       go_to_part(job, part);
-      auto next = std::make_unique<rml1::Check>(mill.config().profile, options);
+      auto next = mill.config().model->make_check(options);
       if (last) next->continues(*last);
       next->feed(std::string_view(*bytes).substr(part_begin(job), part_end(job) - part_begin(job)));
       next->finish();

@@ -4,20 +4,20 @@
 #include <memory>
 
 #include "device/core/problem.h"
-#include "device/rml1/check/check.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/check.h"
+#include "device/jobs/job.h"
 #include "server/devices/mill.h"
 
 namespace axisgate::api {
 
 // Checks that a job of that origin and stock can continue the workpiece of the ended job. Fails with wrong_mode if the
 // ended job is not DONE, and with stale_setpoint if origin, stock or configuration differ, or if it sets Z0 itself.
-Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& ended, std::string_view origin,
-                                  const std::optional<rml1::Stock>& stock);
+Result<void> check_same_workpiece(const server::Mill& mill, const jobs::Job& ended, std::string_view origin,
+                                  const std::optional<jobs::Stock>& stock);
 
 // Returns a check that has played the job and all jobs whose workpiece it continued, oldest first. Must not be called
 // on a device's strand, because it reads whole jobs. Fails with not_found if the spool no longer has one of the jobs.
-Result<std::unique_ptr<rml1::Check>> workpiece_after(const server::Mill& mill, rml1::JobNumber job,
-                                                     const rml1::CheckOptions& options);
+Result<std::unique_ptr<jobs::Check>> workpiece_after(const server::Mill& mill, jobs::JobNumber job,
+                                                     const jobs::CheckOptions& options);
 
 }  // namespace axisgate::api

@@ -46,7 +46,7 @@ std::string position_name(std::string_view device_of_config, std::string_view po
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kPositions, position);
 }
 
-std::string job_name(std::string_view device_of_config, rml1::JobNumber job) {
+std::string job_name(std::string_view device_of_config, jobs::JobNumber job) {
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kJobs, job);
 }
 

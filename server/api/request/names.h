@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/mill/job.h"
+#include "device/jobs/job.h"
 #include "device/stage/motion.h"
 #include "device/stage/stop.h"
 #include "server/devices/mill.h"
@@ -31,10 +31,10 @@ Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_vi
 // Does the same for mills.
 Result<server::Mill*> find_mill(const server::Gateway& gateway, std::string_view name);
 
-std::string job_name(std::string_view device_of_config, rml1::JobNumber job);  // "devices/{d}/jobs/{number}"
+std::string job_name(std::string_view device_of_config, jobs::JobNumber job);  // "devices/{d}/jobs/{number}"
 struct JobName {
   server::Mill* device = nullptr;  // never null
-  rml1::JobNumber number = 0;
+  jobs::JobNumber number = 0;
 };
 // Fails with invalid_request if the name is not "devices/{d}/jobs/{number}", and with unknown_device. Does not check
 // that the job exists.

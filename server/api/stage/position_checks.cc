@@ -69,7 +69,7 @@ Problem refusal_of(Problem problem, const server::SavedPosition& position, const
   // Only refusals because of the controller's report have `sent`; the others with this reason are about the caller's
   // own epochs.
   if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
-  problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);
+  problem.message = fmt::format("\"{}\" is no longer there: {}", position.name, problem.message);
   if (was_interrupted(position, state)) {
     problem.message +=
         fmt::format("; the controller came back {} ago, and may have restarted{}", for_people(now - state.epoch_began),

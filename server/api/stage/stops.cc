@@ -50,7 +50,7 @@ class Gathering {
 };
 
 // Returns the report of an aborted mill. `running` is the job that was aborted.
-StopReport report_of_abort(const Mill& mill, const std::optional<rml1::RunningJob>& running, bool sent) {
+StopReport report_of_abort(const Mill& mill, const std::optional<jobs::RunningJob>& running, bool sent) {
   if (!sent) return {.axes = {}, .problem = not_sent_to(mill)};
   if (!running) return {};
   const double longest_s = std::chrono::duration<double>(running->run_on.longest).count();
@@ -66,8 +66,8 @@ StopReport report_of_abort(const Mill& mill, const std::optional<rml1::RunningJo
 void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
                std::size_t index) {
   mill.post(
-      [&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
-        const std::optional<rml1::RunningJob> running = controller.running(now);
+      [&mill, context, gathering, index](jobs::Machine& controller, TimePoint now) {
+        const std::optional<jobs::RunningJob> running = controller.running(now);
         const bool sent = controller.abort(context, now);
         gathering->add(index, report_of_abort(mill, running, sent), {});
       },

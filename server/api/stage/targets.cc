@@ -32,7 +32,7 @@ Result<stage::AxisMove> completed_target(const AxisTarget& target, const stage::
   }
   if (target.approach && target.approach->value.digits == 0) {
     return tl::unexpected(on_axis(target.axis, Problem{.reason = Reason::invalid_request,
-                                                       .message = "an approach of 0 comes from no side",
+                                                       .message = "an approach of 0 has no direction",
                                                        .hint = "leave it out to go straight there"}));
   }
   return move;

@@ -125,13 +125,15 @@ std::unique_ptr<Answer> OwnAnswers::list_devices(const v1::ListDevicesRequest&, 
 }
 
 std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& request, Asked asked) const {
-  const auto fill = [](const api::StateNow& now) {
+  const auto fill = [](const api::DeviceNow& now) {
     v1::GetDeviceResponse response;
-    *response.mutable_device() = proto::to_proto(*now.device, *now.state);
+    const auto* stage = std::get_if<api::StageNow>(&now);
+    *response.mutable_device() = stage == nullptr ? proto::device_of(std::get<api::MillState>(now))
+                                                  : proto::to_proto(*stage->device, *stage->state);
     return response;
   };
   const auto max_age = request.has_max_age() ? std::optional(proto::to_span(request.max_age())) : std::nullopt;
-  return one_answer<api::StateNow>(asked.served, asked.wake, fill, [&](api::Answer<api::StateNow> answer) {
+  return one_answer<api::DeviceNow>(asked.served, asked.wake, fill, [&](api::Answer<api::DeviceNow> answer) {
     api_.devices.get({.credential = asked.served->credential(), .deadline = asked.deadline}, request.name(), max_age,
                      std::move(answer));
   });

@@ -123,7 +123,7 @@ grpc::ServerUnaryReactor* MillService::CancelJobs(grpc::CallbackServerContext* c
   mill_.waiting.cancel_all(
       to_acting_call(*context, *request), request->device(), request->who(),
       answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
-        for (const rml1::JobNumber job : cancelled.jobs) {
+        for (const jobs::JobNumber job : cancelled.jobs) {
           answer.add_jobs(api::job_name(cancelled.mill->name(), job));
         }
       }));
