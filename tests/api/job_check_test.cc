@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device/rml1/machine/profile.h"
+#include "device/rml1/model.h"
 #include "tests/paths/paths.h"
 
 namespace axisgate::api {
@@ -17,12 +18,17 @@ using testing::HasSubstr;
 
 constexpr std::size_t kBuffer = 1024;
 
+const jobs::Model& mdx_540() {
+  static const rml1::MillModel model("mdx-540", "", *rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml")),
+                                     {});
+  return model;
+}
+
 Result<CheckedJob> check(const std::vector<std::string>& files, const std::vector<std::string>& accepted = {},
                          JobPast before = {}) {
-  const auto profile = rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml"));
   std::vector<PartToSend> parts;
   for (const std::string& file : files) parts.push_back({"T1", file.size()});
-  JobCheck job(*profile, {}, kBuffer, parts, accepted, std::move(before));
+  JobCheck job(mdx_540(), {}, kBuffer, parts, accepted, std::move(before));
   for (const std::string& file : files) {
     if (const Result<void> fed = job.feed(file); !fed) return tl::unexpected(fed.error());
   }
@@ -60,22 +66,21 @@ TEST(AJobCheck, HasNoLimitForWhatIsCut) {
 constexpr const char* kDeepAndDown = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\n";
 
 TEST(AJobCheck, KnowsWhatWasAcceptedBefore) {
-  const auto again = check({kDeepAndDown}, {}, {{rml1::Warning::deep_pass, rml1::Warning::tool_left_down}});
+  const auto again = check({kDeepAndDown}, {}, {{"deep-pass", "tool-left-down"}});
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->accepted.size(), 2u);
-  const auto without = check({"PA;!PZ-100,200;!MC1;PU0,0;PD1000,0;PU0,0;!MC0;"}, {}, {{rml1::Warning::drags_home}});
+  const auto without = check({"PA;!PZ-100,200;!MC1;PU0,0;PD1000,0;PU0,0;!MC0;"}, {}, {{"drags-home"}});
   EXPECT_TRUE(without) << "what the job no longer has is no reason to refuse it: " << without.error().message;
 }
 
 // A pass to 11 mm is accepted if an earlier job has already removed the material in two passes of 5.5 mm.
 TEST(AJobCheck, KnowsWhatAnotherJobHasRemoved) {
-  const auto profile = rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml"));
   constexpr const char* kDeep = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\nPU0,0;!MC0;";
   ASSERT_FALSE(check({kDeep}));
-  rml1::Check first(*profile, {});
-  first.feed("PA;!PZ-550,200;!MC1;PU0,0;PD1000,0;PU0,0;!PZ-1100,200;PD1000,0;PU0,0;!MC0;");
-  first.finish();
-  const auto second = check({kDeep}, {}, {{}, &first});
+  const auto first = mdx_540().make_check({});
+  first->feed("PA;!PZ-550,200;!MC1;PU0,0;PD1000,0;PU0,0;!PZ-1100,200;PD1000,0;PU0,0;!MC0;");
+  first->finish();
+  const auto second = check({kDeep}, {}, {{}, first.get()});
   EXPECT_TRUE(second) << second.error().message;
 }
 
@@ -99,8 +104,8 @@ TEST(AJobCheck, RefusesAllKindsOfWarningsAtOnce) {
 TEST(AJobCheck, KeepsWhatWasAccepted) {
   const auto checked = check({kDeepAndDown}, {"tool-left-down", "deep-pass"});
   ASSERT_TRUE(checked) << checked.error().message;
-  EXPECT_THAT(checked->accepted, testing::ElementsAre(rml1::Warning::deep_pass, rml1::Warning::tool_left_down));
-  EXPECT_EQ(rml1::size_text(checked->extent), "10.0 x 0.0 mm, 11.00 mm deep");
+  EXPECT_THAT(checked->accepted, testing::ElementsAre("deep-pass", "tool-left-down"));
+  EXPECT_EQ(jobs::size_text(checked->extent), "10.0 x 0.0 mm, 11.00 mm deep");
 }
 
 TEST(AJobCheck, RefusesAnAcceptedWarningThatTheJobDoesNotHave) {
@@ -111,10 +116,10 @@ TEST(AJobCheck, RefusesAnAcceptedWarningThatTheJobDoesNotHave) {
 }
 
 TEST(AJobCheck, KnowsTheNamesOfWarnings) {
-  EXPECT_TRUE(check_warning_names({}));
-  EXPECT_TRUE(check_warning_names({"deep-pass", "drags-home"}));
+  EXPECT_TRUE(mdx_540().check_warning_name("deep-pass"));
+  EXPECT_TRUE(mdx_540().check_warning_name("drags-home"));
   for (const char* name : {"all", "3-2", "warnings", "9-9", ""}) {
-    const auto refused = check_warning_names({"deep-pass", name});
+    const auto refused = mdx_540().check_warning_name(name);
     ASSERT_FALSE(refused) << name;
     EXPECT_THAT(refused.error().hint, HasSubstr("deep-pass, drags-home"));
   }

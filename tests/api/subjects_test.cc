@@ -79,13 +79,13 @@ class AnySetting final : public stage::Kind {
  public:
   std::string_view name() const override { return "any"; }
   std::span<const stage::KindSetting> settings() const override { return {}; }
-  std::unique_ptr<stage::StageController> make_controller(const stage::Profile&, const stage::Words&, ByteLink&,
+  std::unique_ptr<stage::StageController> make_controller(const stage::Profile&, const Words&, ByteLink&,
                                                           stage::EventSink&, stage::Permission&) const override {
     return nullptr;
   }
   Result<void> check_lines(const std::vector<std::string>&) const override { return {}; }
   Result<void> check_option(std::string_view, std::string_view) const override { return {}; }
-  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words&, ByteLink&) const override { return nullptr; }
+  std::unique_ptr<Simulation> make_simulation(const Words&, ByteLink&) const override { return nullptr; }
   Result<std::vector<std::string>> lines_for(const stage::Setting& setting, const stage::State&) const override {
     if (const auto* coordinates = std::get_if<stage::SetCoordinates>(&setting)) {
       std::string text = "coordinates";
@@ -218,7 +218,7 @@ TEST_F(SavedPositionChecks, AnotherControllerHoldsIt) {
 
 TEST_F(SavedPositionChecks, ARefusalSaysWhatHasBecomeOfIt) {
   Problem reported{.reason = Reason::epoch_passed, .message = "it holds 60", .sent = "PIT:GET1"};
-  EXPECT_EQ(refusal_of(reported, position_, state_, {}).message, "\"sample\" is not there any more: it holds 60");
+  EXPECT_EQ(refusal_of(reported, position_, state_, {}).message, "\"sample\" is no longer there: it holds 60");
   EXPECT_EQ(refusal_of({.reason = Reason::axis_busy, .message = "busy"}, position_, state_, {}).message, "busy");
 }
 

@@ -8,8 +8,8 @@
 namespace axisgate::axisctl {
 namespace {
 
-using rml1::Place;
-using rml1::PlaceRange;
+using jobs::Place;
+using jobs::PlaceRange;
 
 TEST(JobPlaces, ALineOrALineAndAColumn) {
   EXPECT_EQ(job_place("12"), (Place{0, 12, 1}));

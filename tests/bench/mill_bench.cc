@@ -50,7 +50,7 @@ BENCHMARK(Parse)->Unit(benchmark::kMillisecond);
 void CheckWithMachineAndTime(benchmark::State& state) {
   const Profile profile = test_profile();
   for (auto _ : state) {
-    Check check(profile, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}});
+    Check check(profile, {.origin = jobs::Origin{0, 0, 30}, .stock = {}, .others = {}});
     check.feed(job());
     check.finish();
     benchmark::DoNotOptimize(check.summary());
@@ -64,7 +64,7 @@ void Preview(benchmark::State& state) {
   const Profile profile = test_profile();
   for (auto _ : state) {
     Strokes strokes;
-    Check check(profile, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
+    Check check(profile, {.origin = jobs::Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
     check.feed(job());
     check.finish();
     const std::string svg = to_svg(make_picture("bench", {&check}, profile, {}, true, strokes));

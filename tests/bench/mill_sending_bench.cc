@@ -87,14 +87,14 @@ class Drain : public FlowLink {
   TimePoint last_{};
 };
 
-void cost(const Job& job, Streaming streaming) {
+void cost(const Job& job, jobs::Streaming streaming) {
   const std::string text = job.text(kCommands);
   const Profile profile = short_vectors_profile();
   const double memory = allocated_mib(), begin = cpu_s();
   const Timeline timeline(text, profile, kAtHome);
   const double planned = cpu_s();
   Drain line;
-  const SendSettings settings{.streaming = streaming, .flow_control = streaming == Streaming::full};
+  const jobs::SendSettings settings{.streaming = streaming, .flow_control = streaming == jobs::Streaming::full};
   SenderLine beside(profile, settings, line);
   Sender sender(text, timeline, profile, settings, plan_of(text, timeline, settings), beside.mill());
   const double ready = cpu_s();
@@ -107,7 +107,7 @@ void cost(const Job& job, Streaming streaming) {
   });
   const double all = cpu_s() - ready;
   fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.0f} | {:.0f} | {:.2f} | {:.1f} | {:.1f} |\n", job.name,
-             streaming == Streaming::full ? "full" : "paced", static_cast<double>(text.size()) / 1e6,
+             streaming == jobs::Streaming::full ? "full" : "paced", static_cast<double>(text.size()) / 1e6,
              std::chrono::duration<double, std::ratio<3600>>(end.time_since_epoch()).count(), (planned - begin) * 1e3,
              (ready - planned) * 1e3, all, all / kCommands * 1e6, most - memory);
 }
@@ -117,7 +117,7 @@ struct Width {
   int minutes = 0, outside = 0;
   double most = 0, sum = 0, off_most = 0, off_sum = 0;  // bytes; off: distance of the middle from the truth
 
-  void take(const SendProgress& progress, std::uint64_t truth) {
+  void take(const jobs::SendProgress& progress, std::uint64_t truth) {
     ++minutes;
     if (truth < progress.executed_least || truth > progress.executed_most) ++outside;
     const auto least = static_cast<double>(progress.executed_least), far = static_cast<double>(progress.executed_most);
@@ -129,7 +129,7 @@ struct Width {
   }
 };
 
-void progress(const Job& job, const Pair& pair, SendSettings settings) {
+void progress(const Job& job, const Pair& pair, jobs::SendSettings settings) {
   const std::string text = job.text(kCommands);
   const Timeline timeline(text, pair.profile, kAtHome);
   const double begin = cpu_s();
@@ -140,12 +140,12 @@ void progress(const Job& job, const Pair& pair, SendSettings settings) {
   feed_all(sender, line, kMinute, [&](TimePoint now) { width.take(sender.progress(now), line.executed()); });
   const auto part = [&](double bytes) { return bytes / static_cast<double>(text.size()) * 100; };
   fmt::print("| {} | {} | {} | {:.2f} | {} | {} | {:.0f} ({:.3f} %) | {:.0f} | {:.0f} ({:.3f} %) | {:.0f} | {:.1f} |\n",
-             job.name, pair.name, settings.streaming == Streaming::full ? "full" : "paced", line.seconds() / 3600,
+             job.name, pair.name, settings.streaming == jobs::Streaming::full ? "full" : "paced", line.seconds() / 3600,
              width.minutes, width.outside, width.most, part(width.most), width.sum / width.minutes, width.off_most,
              part(width.off_most), width.off_sum / width.minutes, cpu_s() - begin);
 }
 
-double seconds(const std::string& job, const Pair& pair, SendSettings settings) {
+double seconds(const std::string& job, const Pair& pair, jobs::SendSettings settings) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, setup_of(pair), settings.baud);
   SenderLine beside(pair.profile, settings, line);
@@ -156,7 +156,7 @@ double seconds(const std::string& job, const Pair& pair, SendSettings settings) 
 
 void loss(const Job& job, const Pair& pair, double slack) {
   const std::string text = job.text(kFewer);
-  const double full = seconds(text, pair, {.streaming = Streaming::full, .flow_control = true});
+  const double full = seconds(text, pair, {.streaming = jobs::Streaming::full, .flow_control = true});
   fmt::print("| {} | {} | {:g} |", job.name, pair.name, slack);
   for (const std::size_t window : {64, 128, 256, 0}) {
     fmt::print(" {:.1f} % |", (seconds(text, pair, {.window = window, .slack = slack}) / full - 1) * 100);
@@ -172,7 +172,7 @@ void print_all() {
       "| job | streaming | MB | hours | timeline, ms CPU | window, ms CPU | sending, s CPU | us a command | MiB |\n"
       "|---|---|---|---|---|---|---|---|---|\n");
   for (const Job& job : {kRelief, kUniform, kBursts}) {
-    for (const Streaming streaming : {Streaming::paced, Streaming::full}) cost(job, streaming);
+    for (const jobs::Streaming streaming : {jobs::Streaming::paced, jobs::Streaming::full}) cost(job, streaming);
   }
   fmt::print("\nProgress at every minute, {} commands; bytes\n\n", kCommands);
   fmt::print(
@@ -180,8 +180,8 @@ void print_all() {
       "|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Job& job : {kRelief, kUniform}) {
     for (const Pair& pair : pairs()) {
-      for (const Streaming streaming : {Streaming::paced, Streaming::full})
-        progress(job, pair, {.streaming = streaming, .flow_control = streaming == Streaming::full});
+      for (const jobs::Streaming streaming : {jobs::Streaming::paced, jobs::Streaming::full})
+        progress(job, pair, {.streaming = streaming, .flow_control = streaming == jobs::Streaming::full});
     }
   }
   fmt::print("\nLonger than with full streaming, {} commands, by window in bytes\n\n", kFewer);

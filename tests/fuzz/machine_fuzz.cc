@@ -63,9 +63,9 @@ Profile chosen_profile(Choice& choice) {
 CheckOptions chosen_options(Choice& choice) {
   CheckOptions options;
   if (choice.below(3) != 0) {
-    options.origin = Origin{static_cast<double>(choice.below(400)), 100, static_cast<double>(choice.below(60))};
+    options.origin = jobs::Origin{static_cast<double>(choice.below(400)), 100, static_cast<double>(choice.below(60))};
   }
-  if (choice.yes()) options.stock = Stock{50, 40, 3};
+  if (choice.yes()) options.stock = jobs::Stock{50, 40, 3};
   if (choice.yes()) options.others = {{"other mill", 0.025, 155}};
   return options;
 }

@@ -16,14 +16,14 @@ using axisgate::require;
 
 struct Verdict {
   std::string_view name;
-  Place place;
+  jobs::Place place;
   bool first = false;
   std::uint8_t count = 0;
   std::array<bool, 4> given = {};
   std::array<double, 4> values = {};
-  std::array<Place, 4> places = {};
+  std::array<jobs::Place, 4> places = {};
   std::uint64_t end = 0;
-  std::vector<std::tuple<char, double, bool, Place>> axes;
+  std::vector<std::tuple<char, double, bool, jobs::Place>> axes;
 
   friend bool operator==(const Verdict&, const Verdict&) = default;
 };

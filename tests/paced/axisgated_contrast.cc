@@ -26,8 +26,8 @@ class Contrast final : public stage::Kind {
  public:
   std::string_view name() const override { return "shrc203"; }
   std::span<const stage::KindSetting> settings() const override { return shrc203::kind().settings(); }
-  std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const stage::Words&,
-                                                          ByteLink& link, stage::EventSink& events,
+  std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words&, ByteLink& link,
+                                                          stage::EventSink& events,
                                                           stage::Permission& permission) const override {
     shrc203::Profile own{profile};
     own.refills = shrc203::Refills::among_questions;
@@ -55,7 +55,7 @@ class Contrast final : public stage::Kind {
   Result<void> check_option(std::string_view name, std::string_view value) const override {
     return shrc203::kind().check_option(name, value);
   }
-  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
+  std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const override {
     return shrc203::kind().make_simulation(options, line);
   }
 };

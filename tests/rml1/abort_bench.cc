@@ -70,8 +70,8 @@ char LineToMill::take() {
   return byte;
 }
 
-AbortBench::AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, SendSettings settings,
-                       LineToMill::Setup line, std::string_view before)
+AbortBench::AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill,
+                       jobs::SendSettings settings, LineToMill::Setup line, std::string_view before)
     : mill_(std::move(mill)),
       line_(mill_, line),
       beside_(profile_, settings, line_),
@@ -130,7 +130,7 @@ std::optional<TimePoint> AbortBench::next() const {
   earlier(line_.next());
   earlier(mill_.mill.next_deadline());
   const bool blocked = line_.unsent() > 0 || line_.held();
-  if (sender_.state() != SenderState::sending || !blocked) earlier(sender_.next_deadline(mill_.now));
+  if (sender_.state() != jobs::SenderState::sending || !blocked) earlier(sender_.next_deadline(mill_.now));
   return first;
 }
 

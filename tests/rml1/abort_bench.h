@@ -68,7 +68,7 @@ class AbortBench {
  public:
   // Starts the job. `job` and `timeline` must outlive this object. The mill has the test_profile() and begins at the
   // top above the work origin.
-  AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, SendSettings settings,
+  AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, jobs::SendSettings settings,
              LineToMill::Setup line, std::string_view before = {});
 
   void run_for(Duration time);

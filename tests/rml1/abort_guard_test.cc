@@ -30,20 +30,20 @@ MillSetup mill_of(std::string_view escape_k, Flow flow = Flow::none) {
 struct Case {
   std::string job;
   MillSetup mill;
-  SendSettings settings;
+  jobs::SendSettings settings;
   LineToMill::Setup line{};
   Duration at = seconds(60);
 };
 
 struct Outcome {
   std::size_t ran_on;
-  RunOn bound;
+  jobs::RunOn bound;
 };
 
 Outcome aborted(const Case& one) {
   const Profile profile = test_profile();
   const Timeline timeline(one.job, profile, kMidway);
-  SendSettings settings = one.settings;
+  jobs::SendSettings settings = one.settings;
   settings.buffer = one.mill.buffer_bytes;
   settings.converter = one.line.converter;
   AbortBench bench(one.job, timeline, one.mill, settings, one.line);
@@ -63,7 +63,7 @@ std::string cuts(int count) {
 TEST(AbortGuard, Window) {
   Case one{cuts(400), mill_of("in-band", Flow::rts), {}, {.shows_cts = true}};
   EXPECT_LE(aborted(one).ran_on, 64u);
-  one.settings.streaming = Streaming::full;
+  one.settings.streaming = jobs::Streaming::full;
   EXPECT_GT(aborted(one).ran_on, 300u);
 }
 
@@ -91,7 +91,7 @@ TEST(AbortGuard, TheCommandUnderWay) {
   for (int i = 0; i < 50; ++i) job += still;
   const Case one{job,
                  mill_of("in-band", Flow::xon),
-                 {.streaming = Streaming::full},
+                 {.streaming = jobs::Streaming::full},
                  {.converter = 128, .late = 128},
                  milliseconds(2990)};
   const Outcome outcome = aborted(one);
@@ -106,12 +106,12 @@ TEST(AbortGuard, FlowControlIsIgnored) {
   const Timeline timeline(job, profile, kMidway);
   for (const Flow flow : {Flow::xon, Flow::rts}) {
     for (const bool can_ignore : {false, true}) {
-      AbortBench bench(job, timeline, mill_of("toggle", flow), {.streaming = Streaming::full},
+      AbortBench bench(job, timeline, mill_of("toggle", flow), {.streaming = jobs::Streaming::full},
                        {.shows_cts = flow == Flow::rts, .can_ignore = can_ignore});
       bench.run_for(seconds(3));
       bench.abort();
       bench.run_for(seconds(5));
-      EXPECT_EQ(bench.sender().state(), can_ignore ? SenderState::aborted : SenderState::aborting);
+      EXPECT_EQ(bench.sender().state(), can_ignore ? jobs::SenderState::aborted : jobs::SenderState::aborting);
       EXPECT_EQ(bench.state().tool.z == kTop, can_ignore);
     }
   }
@@ -233,12 +233,12 @@ TEST(AbortLimit, AConverterMayKeepItWhileTheMillHasNoRoom) {
   const std::string job = cuts(60);
   const Profile profile = test_profile();
   const Timeline timeline(job, profile, kMidway);
-  AbortBench bench(job, timeline, mill_of("toggle", Flow::rts), {.streaming = Streaming::full},
+  AbortBench bench(job, timeline, mill_of("toggle", Flow::rts), {.streaming = jobs::Streaming::full},
                    {.shows_cts = true, .converter = 512});
   bench.run_for(seconds(3));
   bench.abort();
   bench.run_for(seconds(5));
-  EXPECT_EQ(bench.sender().state(), SenderState::aborted);
+  EXPECT_EQ(bench.sender().state(), jobs::SenderState::aborted);
   EXPECT_LT(bench.state().tool.z, kTop);
   bench.finish();
   EXPECT_EQ(bench.state().tool.z, kTop);

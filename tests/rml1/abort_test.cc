@@ -37,7 +37,7 @@ constexpr std::array kStreamings = {"paced", "full"};
 constexpr std::array kFlows = {"none", "xon", "rts"};
 
 struct Combination {
-  Streaming streaming;
+  jobs::Streaming streaming;
   Flow flow;
   double slower_percent;
   const char* escape_k;
@@ -54,7 +54,7 @@ std::string text(const Combination& of) {
 // Returns the measured slack of a mill that is slower than the high end of its profile, or the default slack if it is
 // not measured.
 double slack_of(const Combination& of) {
-  if (!of.slack_as_measured) return SendSettings{}.slack;
+  if (!of.slack_as_measured) return jobs::SendSettings{}.slack;
   simulator::MillSetup mill = simulator::with_options({{"acceleration", "worst"}});
   mill.buffer_bytes = kBuffer;
   mill.flow = Flow::rts;
@@ -181,13 +181,13 @@ class Aborts : public testing::TestWithParam<Combination> {
 
   void expect_only_words(AbortBench& bench, std::size_t before) {
     const std::string words = bench.written().substr(before);
-    EXPECT_EQ(bench.sender().state(), SenderState::aborted);
+    EXPECT_EQ(bench.sender().state(), jobs::SenderState::aborted);
     EXPECT_TRUE(words == abort_words(profile_, false) || words == abort_words(profile_, true)) << words;
   }
 
   void expect_within_bound(AbortBench& bench, const Moment& moment) {
     const bool was_held = held_before(moment);
-    const RunOn bound = bench.sender().run_on();
+    const jobs::RunOn bound = bench.sender().run_on();
     std::size_t& most = was_held ? tally_.ran_on_held : tally_.ran_on;
     most = std::max(most, bench.ran_on());
     tally_.bound = std::max(tally_.bound, bound.at_most);
@@ -235,7 +235,7 @@ class Aborts : public testing::TestWithParam<Combination> {
   }
 
   Duration longest(const Job& job) const {
-    const double slack = GetParam().streaming == Streaming::paced ? slack_ : 1;
+    const double slack = GetParam().streaming == jobs::Streaming::paced ? slack_ : 1;
     return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.timeline.slowest_s() * slack));
   }
 
@@ -265,9 +265,9 @@ TEST_P(Aborts, NothingIsWrittenTheBoundIsTrueAndTheToolIsUp) {
 
 std::vector<Combination> combinations() {
   std::vector<Combination> all;
-  for (const Streaming streaming : {Streaming::paced, Streaming::full}) {
+  for (const jobs::Streaming streaming : {jobs::Streaming::paced, jobs::Streaming::full}) {
     for (const Flow flow : {Flow::none, Flow::xon, Flow::rts}) {
-      if (streaming == Streaming::full && flow == Flow::none) continue;
+      if (streaming == jobs::Streaming::full && flow == Flow::none) continue;
       for (const double slower : {0.0, 30.0, 50.0}) {
         for (const char* escape_k : {"toggle", "one-shot", "in-band"})
           all.push_back({streaming, flow, slower, escape_k, 1000 * all.size()});
@@ -282,7 +282,7 @@ std::vector<Combination> measured_combinations() {
   std::vector<Combination> all;
   for (const Flow flow : {Flow::none, Flow::xon, Flow::rts}) {
     for (const char* escape_k : {"toggle", "in-band"})
-      all.push_back({Streaming::paced, flow, 20, escape_k, 1000 * (100 + all.size()), true});
+      all.push_back({jobs::Streaming::paced, flow, 20, escape_k, 1000 * (100 + all.size()), true});
   }
   return all;
 }

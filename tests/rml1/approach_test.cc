@@ -24,7 +24,7 @@ using testing::HasSubstr;
 const std::string kUp = "!MC0;^PA;!VZ15;!ZM0;!PZ0,8388607;";
 
 // Returns the text that is written when the job continues at the first command at or after `part`.
-std::string words(const std::string& job, const std::string& part, std::optional<Origin> origin = kWork) {
+std::string words(const std::string& job, const std::string& part, std::optional<jobs::Origin> origin = kWork) {
   const Result<Approach> approach = approach_to(job, job.find(part), test_profile(), origin);
   return approach ? continued(job, *approach) : approach.error().message;
 }
@@ -79,7 +79,7 @@ TEST(Approach, BehindABlankOrALineEndIsTheNextCommand) {
 TEST(Approach, BeforeTheFirstCommandItIsTheWholeJob) { EXPECT_EQ(words("\n^IN;PU1,1;", "\n"), "\n^IN;PU1,1;"); }
 
 TEST(Approach, IsRefusedWhereNobodyKnowsTheWay) {
-  EXPECT_THAT(words("PU1,1;", ";"), HasSubstr("there is no command at byte 5 of 6 or behind it"));
+  EXPECT_THAT(words("PU1,1;", ";"), HasSubstr("there is no command at byte 5 of 6 or after it"));
   EXPECT_THAT(words("PU1,1;\n!ZO-100;PU2,2;", "PU2,2"),
               HasSubstr("cannot continue at line 2, column 9: before it the job sets Z0"));
   EXPECT_THAT(words("PU-20000,0;PU2,2;", "PU2,2"), HasSubstr("there the job has left the work area"));
@@ -102,7 +102,7 @@ TEST(Approach, IsNotChosenBeforeWhatNothingGivesBack) {
   };
   EXPECT_EQ(chosen("PU1,1;PU2,2;", "PU2,2"), "chosen");
   EXPECT_EQ(chosen("PU1,1;PU2,2;!ZO-100;PU3,3;", "PU2,2"),
-            "behind that place the job sets Z0 (!ZO), and the mill may have done so already");
+            "after that place the job sets Z0 (!ZO), and the mill may have done so already");
   EXPECT_THAT(chosen("PU1,1;PU2,2;!RC8;PU3,3;", "PU2,2"), HasSubstr("sets the spindle speed (!RC)"));
   EXPECT_EQ(chosen("!RC5;PU1,1;PU2,2;!RC8;PU3,3;", "PU2,2"), "chosen") << "the way there sets it";
 }
@@ -117,16 +117,16 @@ TEST(Approach, IsRefusedBehindATurnOfTheRotaryAxis) {
 
 TEST(Approach, LinesAndColumnsCountFromOne) {
   const std::string job = "PU1,1;\nPU2,2;PU3,3;\n";
-  EXPECT_EQ(offset_of(job, 1, 1), 0u);
-  EXPECT_EQ(offset_of(job, 2, 1), 7u);
-  EXPECT_EQ(offset_of(job, 2, 7), 13u);
-  EXPECT_EQ(offset_of(job, 3, 1), job.size());
-  EXPECT_EQ(offset_of(job, 99, 1), job.size());
-  EXPECT_EQ(place_of(job, 13), (Place{13, 2, 7}));
-  EXPECT_EQ(place_of(job, 0), Place());
+  EXPECT_EQ(jobs::offset_of(job, 1, 1), 0u);
+  EXPECT_EQ(jobs::offset_of(job, 2, 1), 7u);
+  EXPECT_EQ(jobs::offset_of(job, 2, 7), 13u);
+  EXPECT_EQ(jobs::offset_of(job, 3, 1), job.size());
+  EXPECT_EQ(jobs::offset_of(job, 99, 1), job.size());
+  EXPECT_EQ(jobs::place_of(job, 13), (jobs::Place{13, 2, 7}));
+  EXPECT_EQ(jobs::place_of(job, 0), jobs::Place());
   for (std::uint64_t offset = 0; offset < job.size(); ++offset) {
-    const Place place = place_of(job, offset);
-    EXPECT_EQ(offset_of(job, place.line, place.column), offset);
+    const jobs::Place place = jobs::place_of(job, offset);
+    EXPECT_EQ(jobs::offset_of(job, place.line, place.column), offset);
   }
 }
 

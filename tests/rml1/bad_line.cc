@@ -19,7 +19,7 @@ constexpr Duration kAbortOnLine = std::chrono::milliseconds(50);  // the abort's
 constexpr std::size_t kLinesShown = 25;
 constexpr std::size_t kStepsAtOnce = 10'000;  // limit for steps without progress of time
 
-Job job_of(JobNumber number) {
+jobs::Job job_of(jobs::JobNumber number) {
   return {.number = number,
           .name = "part.rml",
           .owner = "unix anna",
@@ -74,7 +74,7 @@ void BadLine::before_start() {
   run_for(plan_.before_start == BeforeStart::abort_and_at_once ? kAbortOnLine : std::chrono::seconds(1));
 }
 
-Result<void> BadLine::confirm(JobNumber number) {
+Result<void> BadLine::confirm(jobs::JobNumber number) {
   return mill_.confirm(number, job_of(number).setup, kAtMill.who, bench_.now);
 }
 
@@ -103,7 +103,7 @@ void BadLine::run_job() {
 
 bool BadLine::step_of_job(TimePoint until) {
   const bool any = step(until);
-  if (state() == JobState::fed && !std::exchange(fed_looked_at_, true)) expect_fed_is_true();
+  if (state() == jobs::JobState::fed && !std::exchange(fed_looked_at_, true)) expect_fed_is_true();
   return any;
 }
 
@@ -132,7 +132,7 @@ void BadLine::act(Act::Kind kind) {
 }
 
 void BadLine::abort() {
-  const bool open = mill_.link() == MillLink::open;
+  const bool open = mill_.link() == jobs::MachineLink::open;
   if (runs()) {
     aborted_ = true;
     executed_.flow_control_is_ignored();
@@ -150,11 +150,11 @@ void BadLine::abort() {
 void BadLine::break_line() {
   const bool ran = runs();
   result_.line_broke = result_.line_broke || ran;
-  under_way_.resize(line_.drop(!plan_.keeps_converter));
+  in_transit_.resize(line_.drop(!plan_.keeps_converter));
   mill_.link_down(bench_.now, "unplugged");
   if (!ran) return;
   abort_outstanding_ = true;
-  if (state() != JobState::paused_unknown) return violate("the line broke and the job is not PAUSED_UNKNOWN");
+  if (state() != jobs::JobState::paused_unknown) return violate("the line broke and the job is not PAUSED_UNKNOWN");
   range_ = mill_.jobs().front().written;
 }
 
@@ -168,7 +168,7 @@ void BadLine::bring_line_back() {
     violate(abort_outstanding_ ? "the line is back and no abort is sent" : "an abort is sent that nobody requested");
   }
   if (std::exchange(abort_outstanding_, false)) executed_.flow_control_is_ignored();
-  if (state() != JobState::paused_unknown) return;
+  if (state() != jobs::JobState::paused_unknown) return;
   expect_not_startable("its line was lost");
   expect_refused(confirm(kFirst), Reason::wrong_mode, "it is PAUSED_UNKNOWN and is confirmed");
 }
@@ -199,8 +199,8 @@ void BadLine::run_for(Duration time) {
 }
 
 void BadLine::deliver(char byte) {
-  const std::uint64_t through = under_way_.front();
-  under_way_.pop_front();
+  const std::uint64_t through = in_transit_.front();
+  in_transit_.pop_front();
   job_arrived_ = std::max(job_arrived_, through);
   if (through != plan_.byte_at + 1 || plan_.byte == ByteFault::none) return give_to_mill(byte, through);
   result_.byte_changed = true;
@@ -223,12 +223,12 @@ void BadLine::read_record() {
 }
 
 void BadLine::writes(std::string_view bytes) {
-  if (mill_.link() != MillLink::open) violate("written with the line closed");
+  if (mill_.link() != jobs::MachineLink::open) violate("written with the line closed");
   const bool is_abort = bytes == abort_words(profile_, true) || bytes == abort_words(profile_, false);
   note(fmt::format("{} written", is_abort ? "the abort" : in_quotes(bytes)));
   if (!is_abort) return writes_of_job(bytes);
   ++abort_writes_;
-  under_way_.insert(under_way_.end(), bytes.size(), 0);
+  in_transit_.insert(in_transit_.end(), bytes.size(), 0);
 }
 
 void BadLine::writes_of_job(std::string_view bytes) {
@@ -238,7 +238,7 @@ void BadLine::writes_of_job(std::string_view bytes) {
   if (text_.substr(job_written_, bytes.size()) != bytes) violate("not what comes next in the job");
   if (line_.unsent() > 0) violate("a command is written while another has not left the host");
   if (line_.held()) violate("a command is written while CTS is low");
-  for (std::size_t i = 0; i < bytes.size(); ++i) under_way_.push_back(++job_written_);
+  for (std::size_t i = 0; i < bytes.size(); ++i) in_transit_.push_back(++job_written_);
   if (noted_ < prepared_->of_body(job_written_)) violate("written before it was noted");
 }
 
@@ -251,18 +251,18 @@ void BadLine::note(std::string what) {
   happened_.push_back(fmt::format("{:>9} ms  {}", bench_.now.time_since_epoch() / std::chrono::milliseconds(1), what));
 }
 
-void BadLine::link_changed(MillLink link, std::string_view, TimePoint) {
-  note(link == MillLink::open ? "the line is open" : "the line is closed");
+void BadLine::link_changed(jobs::MachineLink link, std::string_view, TimePoint) {
+  note(link == jobs::MachineLink::open ? "the line is open" : "the line is closed");
 }
 
-void BadLine::job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) {
+void BadLine::job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint) {
   note(fmt::format("job {} is {} ({} {})", job.number, name(job.state), by, why));
   states_[job.number] = job.state;
-  if (job.state == JobState::paused_unknown && !range_) range_ = job.written;
-  if (job.state == JobState::done && by.empty()) violate("DONE, and nobody has said so");
+  if (job.state == jobs::JobState::paused_unknown && !range_) range_ = job.written;
+  if (job.state == jobs::JobState::done && by.empty()) violate("DONE, and nobody has said so");
 }
 
-void BadLine::sender_changed(const RunningJob& running, TimePoint) {
+void BadLine::sender_changed(const jobs::RunningJob& running, TimePoint) {
   note(fmt::format("{}{}", name(running.sender), running.busy ? ", busy" : ""));
 }
 

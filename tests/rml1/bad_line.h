@@ -20,16 +20,16 @@
 namespace axisgate::rml1 {
 
 struct LineFaultRun {
-  std::optional<std::string> violation;  // the first violated requirement
-  std::string replay;                    // the drawn choices and the last events
-  JobState outcome = JobState::queued;   // outcome of the job
+  std::optional<std::string> violation;             // the first violated requirement
+  std::string replay;                               // the drawn choices and the last events
+  jobs::JobState outcome = jobs::JobState::queued;  // outcome of the job
   // Faults that occurred.
   bool byte_changed = false, stuck = false, xon_lost = false, line_broke = false, was_busy = false;
   std::size_t ran_on = 0;  // bytes, after an abort of the job
 };
 
 // A BadLine has two jobs in its queue. It confirms and sends the first, and then settles its outcome.
-class BadLine : private MillEvents {
+class BadLine : private jobs::MachineEvents {
  public:
   explicit BadLine(std::uint64_t seed);
   LineFaultRun run();  // call once
@@ -50,7 +50,7 @@ class BadLine : private MillEvents {
   void abort();
   void break_line();
   void bring_line_back();
-  Result<void> confirm(JobNumber number);
+  Result<void> confirm(jobs::JobNumber number);
   void expect_refused(const Result<void>& result, Reason reason, std::string_view what);
   void expect_not_startable(std::string_view why);
 
@@ -66,21 +66,21 @@ class BadLine : private MillEvents {
   bool runs() const { return mill_.running_job() != 0; }
   // Reports a fault that cannot be detected: a changed byte, or a lost XON while bytes wait in a converter.
   bool is_hidden() const { return result_.byte_changed || (line_.has_lost_xon() && plan_.line.converter > 0); }
-  JobState state() const { return states_.at(kFirst); }
+  jobs::JobState state() const { return states_.at(kFirst); }
   void violate(std::string what);
   void note(std::string what);
 
-  void link_changed(MillLink link, std::string_view, TimePoint) override;
-  void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override;
-  void rank_changed(const Job&) override {}
+  void link_changed(jobs::MachineLink link, std::string_view, TimePoint) override;
+  void job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint) override;
+  void rank_changed(const jobs::Job&) override {}
   void surface_set(std::uint64_t) override {}
   void internal_error(std::string_view what, TimePoint) override { violate(std::string(what)); }
-  void sender_changed(const RunningJob& running, TimePoint) override;
-  void written(std::string_view, JobNumber) override {}
+  void sender_changed(const jobs::RunningJob& running, TimePoint) override;
+  void written(std::string_view, jobs::JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
-  void about_to_write(JobNumber, const WrittenRange& sent) override { noted_ = sent.most; }
+  void about_to_write(jobs::JobNumber, const jobs::WrittenRange& sent) override { noted_ = sent.most; }
 
-  static constexpr JobNumber kFirst = 1, kSecond = 2;
+  static constexpr jobs::JobNumber kFirst = 1, kSecond = 2;
   static inline const stage::RequestContext kOwner{.who = "unix anna"}, kAtMill{.who = "unix bert"};
 
   const std::uint64_t seed_;
@@ -94,9 +94,9 @@ class BadLine : private MillEvents {
   MillController mill_;
   ExecutedJob executed_;
 
-  std::map<JobNumber, JobState> states_;
+  std::map<jobs::JobNumber, jobs::JobState> states_;
   std::deque<std::uint64_t>
-      under_way_;  // for each byte on the line, the number of text bytes up to it; 0: not part of the text
+      in_transit_;  // for each byte on the line, the number of text bytes up to it; 0: not part of the text
   std::uint64_t job_written_ = 0, noted_ = 0, job_arrived_ = 0;       // bytes; the first and the last of the text
   std::uint64_t taken_ = 0;                                           // bytes of the job, last reported
   std::size_t lines_read_ = 0, abort_writes_ = 0, without_time_ = 0;  // without_time_: steps
@@ -105,8 +105,8 @@ class BadLine : private MillEvents {
   bool abort_requested_ = false;
   bool fed_looked_at_ = false;
   std::uint64_t executed_at_abort_ = 0;
-  RunOn bound_{};
-  std::optional<WrittenRange> range_;
+  jobs::RunOn bound_{};
+  std::optional<jobs::WrittenRange> range_;
   std::vector<std::string> happened_;
   LineFaultRun result_;
 };

@@ -29,12 +29,12 @@ void BadLine::expect_end() {
   }
   run_for(std::chrono::seconds(1));
   if (runs()) return violate("the job does not end");
-  const JobState outcome = state();
-  const bool fed = outcome == JobState::fed;
+  const jobs::JobState outcome = state();
+  const bool fed = outcome == jobs::JobState::fed;
   if (fed && plan_.sticks_forever && result_.stuck) violate("CTS is stuck for ever, and the job is FED");
   run_for(std::chrono::minutes(30));  // enough for anything in the mill
-  if (outcome == JobState::aborted) expect_little_ran_on();
-  if (outcome == JobState::paused_unknown) expect_range_holds();
+  if (outcome == jobs::JobState::aborted) expect_little_ran_on();
+  if (outcome == jobs::JobState::paused_unknown) expect_range_holds();
 }
 
 void BadLine::expect_busy_and_abort() {
@@ -43,7 +43,7 @@ void BadLine::expect_busy_and_abort() {
   note("abort");
   abort();
   run_for(std::chrono::seconds(1));
-  if (state() != JobState::aborted || line_.unsent() > 0) violate("an abort has not left the host after 1 s");
+  if (state() != jobs::JobState::aborted || line_.unsent() > 0) violate("an abort has not left the host after 1 s");
 }
 
 // FED applies to the slowest mill, with a tolerance of a thousandth of the job's time.
@@ -56,7 +56,7 @@ void BadLine::expect_fed_is_true() {
 // Expects that bytes which have not reached the mill are reported neither as taken nor as executed.
 void BadLine::expect_progress_is_true() {
   if (!runs() || is_hidden()) return;
-  const SendProgress progress = mill_.running(bench_.now)->progress;
+  const jobs::SendProgress progress = mill_.running(bench_.now)->progress;
   const std::uint64_t arrived = prepared_->of_body(job_arrived_);
   if (progress.executed_least > progress.taken) violate("more is said to be executed than is taken");
   if (progress.taken > arrived)
@@ -85,11 +85,11 @@ void BadLine::expect_range_holds() {
 // afterwards.
 void BadLine::expect_next_waits() {
   if (result_.violation) return;
-  const JobState outcome = state();
-  if (outcome == JobState::fed || outcome == JobState::paused_unknown) {
+  const jobs::JobState outcome = state();
+  if (outcome == jobs::JobState::fed || outcome == jobs::JobState::paused_unknown) {
     expect_refused(confirm(kSecond), Reason::wrong_mode, fmt::format("the job before is {}", name(outcome)));
-    const bool ended = outcome == JobState::fed ? mill_.done(kFirst, kAtMill.who, bench_.now).has_value()
-                                                : mill_.cancel(kFirst, kAtMill.who, bench_.now).has_value();
+    const bool ended = outcome == jobs::JobState::fed ? mill_.done(kFirst, kAtMill.who, bench_.now).has_value()
+                                                      : mill_.cancel(kFirst, kAtMill.who, bench_.now).has_value();
     if (!ended) violate("a person cannot say what became of the job");
     states_[kFirst] = outcome;
   }

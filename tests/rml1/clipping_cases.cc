@@ -26,7 +26,7 @@ std::string jobs(const Paragraph& geometry, bool judged) {
 }  // namespace
 
 ClippingCase play_case(const Paragraph& geometry) {
-  constexpr Origin kOrigin{0, 0, 5};
+  constexpr jobs::Origin kOrigin{0, 0, 5};
   const std::string before = jobs(geometry, false);
   const Played beginning = play(before, small_mill(), kOrigin);
   ClippingCase played;

@@ -12,8 +12,8 @@ namespace axisgate::rml1 {
 struct ClippingCase {
   std::string job;
   Played whole;
-  std::size_t begin = 0;         // index of the first move that is judged
-  std::vector<Point> commanded;  // from the place where that move begins
+  std::size_t begin = 0;               // index of the first move that is judged
+  std::vector<jobs::Point> commanded;  // from the place where that move begins
 };
 
 ClippingCase play_case(const Paragraph& geometry);

@@ -23,9 +23,9 @@ constexpr double kCell = 220, kScale = 0.09, kColumns = 4;
 struct Seen {
   double x, y;
 };
-Seen seen(const Point& p) { return {(p.x + p.y * 0.45) * kScale, -(p.z + p.y * 0.35) * kScale}; }
+Seen seen(const jobs::Point& p) { return {(p.x + p.y * 0.45) * kScale, -(p.z + p.y * 0.35) * kScale}; }
 
-std::string line(const Point& from, const Point& to, std::string_view kind) {
+std::string line(const jobs::Point& from, const jobs::Point& to, std::string_view kind) {
   const Seen a = seen(from), b = seen(to);
   return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", kind, a.x, a.y,
                      b.x, b.y);
@@ -33,9 +33,9 @@ std::string line(const Point& from, const Point& to, std::string_view kind) {
 
 std::string box_lines(const Box& box) {
   std::string lines;
-  const Point& a = box.lowest;
-  const Point& b = box.highest;
-  const auto edge = [&](Point from, Point to) { lines += line(from, to, "box"); };
+  const jobs::Point& a = box.lowest;
+  const jobs::Point& b = box.highest;
+  const auto edge = [&](jobs::Point from, jobs::Point to) { lines += line(from, to, "box"); };
   for (const double z : {a.z, b.z}) {
     edge({a.x, a.y, z}, {b.x, a.y, z});
     edge({b.x, a.y, z}, {b.x, b.y, z});
@@ -96,7 +96,7 @@ std::string page(const std::vector<Paragraph>& cases) {
 
 One geometry of each case A to Q of guideline 5-1; `tests/rml1/clipping/cases.txt` has them all, worked out by hand. Dashed
 red is commanded, blue is driven; the box is the work area, seen from the front, above and the right. Made by a test, which
-draws what the machine drives; that it is what stands in the table, `Clipping` tests. Do not edit it.
+draws what the machine drives; that it is what is in the table, `Clipping` tests. Do not edit it.
 
 ![The cases A to Q](clipping.svg)
 

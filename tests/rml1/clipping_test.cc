@@ -15,10 +15,10 @@ namespace {
 std::vector<std::string> corners(const std::vector<Move>& moves, std::size_t begin) {
   std::vector<std::string> found;
   for (std::size_t index = begin; index < moves.size(); ++index) {
-    const Point way = moves[index].to - moves[index].from;
+    const jobs::Point way = moves[index].to - moves[index].from;
     const bool last = index + 1 == moves.size();
-    const Point next = last ? Point{} : moves[index + 1].to - moves[index + 1].from;
-    const Point turn = way * (1 / length(way)) - next * (last ? 0 : 1 / length(next));
+    const jobs::Point next = last ? jobs::Point{} : moves[index + 1].to - moves[index + 1].from;
+    const jobs::Point turn = way * (1 / length(way)) - next * (last ? 0 : 1 / length(next));
     if (last || length(turn) > 1e-9) found.push_back(text(moves[index].to));
   }
   return found;

@@ -40,10 +40,10 @@ class Model : public ParserListener, public MachineListener {
     if (what == Wait::turn) return course_.events.push_back({Kind::turn, {}, seconds * profile_.rotary->degrees_per_s});
     course_.events.push_back({what == Wait::dwell ? Kind::dwell : Kind::spin_up, {}, seconds});
   }
-  void commanded(const Point&, const Point&, bool, const Instruction&) override {}
+  void commanded(const jobs::Point&, const jobs::Point&, bool, const Instruction&) override {}
   void lifted(double, const Instruction&) override {}
 
-  simulator::Position place(const Point& p) const {
+  simulator::Position place(const jobs::Point& p) const {
     const Box box = machine_.box();
     return {p.x - box.lowest.x, p.y - box.lowest.y, p.z - box.highest.z};
   }

@@ -29,7 +29,7 @@ bool operator==(const Course::Event& a, const Course::Event& b);
 void PrintTo(const Course::Event& event, std::ostream* out);
 
 // Work origin and Z0 of model and simulator, in mm.
-inline constexpr Origin kWork{100, 100, 50};
+inline constexpr jobs::Origin kWork{100, 100, 50};
 
 // Parses a line of the simulated mill's record. nullopt if the line is neither a movement nor a wait.
 std::optional<Course::Event> recorded_event(const std::string& line);

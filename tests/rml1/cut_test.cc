@@ -55,7 +55,7 @@ TEST(Cut, OfAListOfAMillionNumbers) {
   EXPECT_EQ(all.back().back(), ';');
 }
 
-LongestPiece::Piece longest_of(const std::string& job) {
+jobs::Piece longest_of(const std::string& job) {
   LongestPiece pieces;
   for (const char c : job) pieces.take({&c, 1});
   return pieces.longest();
@@ -72,7 +72,7 @@ TEST(ALongestPiece, IsACommandOrASetOfAList) {
 TEST(ALongestPiece, HasThePlaceWhereItBegins) {
   const auto piece = longest_of("PU;\nPU; PA" + std::string(50, ' ') + "1,2;PD1,1;");
   EXPECT_EQ(piece.bytes, 56u);
-  EXPECT_EQ(piece.begin, (Place{8, 2, 5}));
+  EXPECT_EQ(piece.begin, (jobs::Place{8, 2, 5}));
 }
 
 }  // namespace

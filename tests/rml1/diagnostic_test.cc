@@ -12,24 +12,24 @@ namespace {
 using testing::ElementsAre;
 
 template <class Text>
-void add(Diagnostics& diagnostics, Severity severity, const Place& place, Text text) {
+void add(Diagnostics& diagnostics, Severity severity, const jobs::Place& place, Text text) {
   if (severity == Severity::error) return diagnostics.error(1, place, "2-5", text);
   if (severity == Severity::note) return diagnostics.note(place, "2-5", text);
   diagnostics.warn(Warning::out_of_range, place, "2-5", text);
 }
 
 void add(Diagnostics& diagnostics, Severity severity, std::uint64_t offset) {
-  add(diagnostics, severity, Place{offset, 1, offset + 1}, [] { return "text"; });
+  add(diagnostics, severity, jobs::Place{offset, 1, offset + 1}, [] { return "text"; });
 }
 
 TEST(Diagnostics, KeepWhatTheyAreTold) {
   Diagnostics diagnostics;
-  diagnostics.error(3, Place{7, 2, 3}, "3-1", [] { return std::string("too much"); });
+  diagnostics.error(3, jobs::Place{7, 2, 3}, "3-1", [] { return std::string("too much"); });
   ASSERT_EQ(diagnostics.kept().size(), 1u);
   const Diagnostic& one = diagnostics.kept()[0];
   EXPECT_EQ(one.number, 3);
   EXPECT_EQ(one.severity, Severity::error);
-  EXPECT_EQ(one.place, (Place{7, 2, 3}));
+  EXPECT_EQ(one.place, (jobs::Place{7, 2, 3}));
   EXPECT_EQ(one.section, "3-1");
   EXPECT_EQ(one.text, "too much");
 }
@@ -54,7 +54,7 @@ TEST(Diagnostics, OmitNothingUpToTen) {
 template <int kind>
 void add_kind(Diagnostics& diagnostics, std::uint64_t times, Severity severity = Severity::warning) {
   for (std::uint64_t offset = 0; offset < times; ++offset) {
-    add(diagnostics, severity, Place{offset, 1 + offset, 1}, [] { return std::to_string(kind); });
+    add(diagnostics, severity, jobs::Place{offset, 1 + offset, 1}, [] { return std::to_string(kind); });
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Diagnostics, MakeNoTextOfWhatIsNotKept) {
     Diagnostics diagnostics;
     int made = 0;
     for (int index = 0; index < 1000; ++index) {
-      add(diagnostics, severity, Place(), [&] {
+      add(diagnostics, severity, jobs::Place(), [&] {
         ++made;
         return "text";
       });
@@ -98,7 +98,7 @@ TEST(Diagnostics, MakeNoTextOfWhatIsNotKept) {
 TEST(Diagnostics, AreOrderedByPlaceAndTheWholeJobComesFirst) {
   Diagnostics diagnostics;
   const auto add_text = [&](int number, std::uint64_t offset, const char* text) {
-    diagnostics.error(number, Place{offset, 1, offset + 1}, "2-3", [text] { return text; });
+    diagnostics.error(number, jobs::Place{offset, 1, offset + 1}, "2-3", [text] { return text; });
   };
   add_text(1, 5, "third"), add_text(1, 0, "second"), add_text(0, 0, "first"), add_text(2, 5, "fourth");
   std::vector<std::string> texts;

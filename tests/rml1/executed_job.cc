@@ -27,7 +27,7 @@ double distance(const simulator::Position& a, const simulator::Position& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.h - b.h);
 }
 
-std::string text(const Course::Event& event) {
+std::string event_text(const Course::Event& event) {
   std::ostringstream out;
   PrintTo(event, &out);
   return out.str();
@@ -86,15 +86,15 @@ void ExecutedJob::begins(std::size_t buffered) {
 }
 
 void ExecutedJob::happened(const Course::Event& event) {
-  if (next_ == course_.size()) return violate(fmt::format("after all of the job, {}", text(event)));
-  if (ended_) return violate(fmt::format("after ESC.K, {}", text(event)));
+  if (next_ == course_.size()) return violate(fmt::format("after all of the job, {}", event_text(event)));
+  if (ended_) return violate(fmt::format("after ESC.K, {}", event_text(event)));
   const Course::Event& expected = course_[next_];
   if (event == expected) {
     ++next_;
   } else if (bytes_.back().through == 0 && is_part_of(event)) {
     ended_ = true;
   } else {
-    return violate(fmt::format("event {} is {} instead of {}", next_, text(event), text(expected)));
+    return violate(fmt::format("event {} is {} instead of {}", next_, event_text(event), event_text(expected)));
   }
   if (event.kind == Course::Event::Kind::moved) tool_ = event.to;
 }

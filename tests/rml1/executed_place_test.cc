@@ -17,57 +17,59 @@ using testing::StartsWith;
 
 // Returns the range of the executed place in `body` after execution of `executed` and writing of `written`. Both are
 // beginnings of `body`.
-PlaceRange range(const std::string& body, const std::string& executed, const std::string& written) {
-  const PreparedJob job(body, "d1", test_profile(), std::nullopt, SendSettings());
+jobs::PlaceRange range(const std::string& body, const std::string& executed, const std::string& written) {
+  const PreparedJob job(body, "d1", test_profile(), std::nullopt, jobs::SendSettings());
   const std::size_t before = prologue().size();
   return job.executed(executed.empty() ? 0 : before + executed.size(), before + written.size());
 }
 
 TEST(ExecutedPlace, IsWhereTheNextCommandBegins) {
   const std::string body = "PU1,1;\r\nPD2,2; \nPD3,3;PU;";
-  EXPECT_EQ(range(body, "PU1,1;", "PU1,1;\r\nPD2,2; \n"), (PlaceRange{{8, 2, 1}, {16, 3, 1}}));
-  EXPECT_EQ(range(body, "PU1,1;\r\nPD2,2;", "PU1,1;\r\nPD2,2; \nPD3,3;"), (PlaceRange{{16, 3, 1}, {22, 3, 7}}));
+  EXPECT_EQ(range(body, "PU1,1;", "PU1,1;\r\nPD2,2; \n"), (jobs::PlaceRange{{8, 2, 1}, {16, 3, 1}}));
+  EXPECT_EQ(range(body, "PU1,1;\r\nPD2,2;", "PU1,1;\r\nPD2,2; \nPD3,3;"), (jobs::PlaceRange{{16, 3, 1}, {22, 3, 7}}));
 }
 
 // In "PD2,2PD3,3", the second P ends the first command.
 TEST(ExecutedPlace, OfACommandThatTheNextOneEnds) {
-  EXPECT_EQ(range("PD2,2PD3,3;", "PD2,2P", "PD2,2PD3,3;"), (PlaceRange{{5, 1, 6}, {11, 1, 12}}));
+  EXPECT_EQ(range("PD2,2PD3,3;", "PD2,2P", "PD2,2PD3,3;"), (jobs::PlaceRange{{5, 1, 6}, {11, 1, 12}}));
 }
 
 TEST(ExecutedPlace, OfAListIsTheNextSetOfCoordinates) {
-  EXPECT_EQ(range("PD1,2,3,4,5,6;", "PD1,2,", "PD1,2,3,4,"), (PlaceRange{{6, 1, 7}, {10, 1, 11}}));
+  EXPECT_EQ(range("PD1,2,3,4,5,6;", "PD1,2,", "PD1,2,3,4,"), (jobs::PlaceRange{{6, 1, 7}, {10, 1, 11}}));
 }
 
 TEST(ExecutedPlace, BeforeTheFirstAndBehindTheLast) {
-  EXPECT_EQ(range("PU1,1;PD2,2;", "", ""), (PlaceRange{{0, 1, 1}, {0, 1, 1}}));
-  EXPECT_EQ(range("PU1,1;\nPD2,2;\n", "PU1,1;\nPD2,2;", "PU1,1;\nPD2,2;\n;PU;"), (PlaceRange{{14, 3, 1}, {14, 3, 1}}));
+  EXPECT_EQ(range("PU1,1;PD2,2;", "", ""), (jobs::PlaceRange{{0, 1, 1}, {0, 1, 1}}));
+  EXPECT_EQ(range("PU1,1;\nPD2,2;\n", "PU1,1;\nPD2,2;", "PU1,1;\nPD2,2;\n;PU;"),
+            (jobs::PlaceRange{{14, 3, 1}, {14, 3, 1}}));
 }
 
 // Everything written has been executed: the next command does not begin before the end of the written bytes.
 TEST(ExecutedPlace, IsNeverBehindWhatIsWritten) {
-  EXPECT_EQ(range("PU1,1;\n\nPD2,2;", "PU1,1;", "PU1,1;\n"), (PlaceRange{{8, 3, 1}, {8, 3, 1}}));
+  EXPECT_EQ(range("PU1,1;\n\nPD2,2;", "PU1,1;", "PU1,1;\n"), (jobs::PlaceRange{{8, 3, 1}, {8, 3, 1}}));
 }
 
 TEST(ExecutedPlace, OfARestCountsFromTheBeginningOfItsFile) {
   const std::string body = "!PZ-100,200;\nPU1,1;\nPU2,2;\nPU3,3;";
   const Result<Approach> approach = approach_to(body, body.find("PU2,2"), test_profile(), std::nullopt);
   ASSERT_TRUE(approach);
-  const PreparedJob rest(body, "d1", test_profile(), std::nullopt, SendSettings(), 0, approach->at, *approach);
+  const PreparedJob rest(body, "d1", test_profile(), std::nullopt, jobs::SendSettings(), 0, approach->at, *approach);
   const std::size_t begins = prologue().size() + approach->words.size();
-  EXPECT_EQ(rest.executed(prologue().size() + 1, begins), (PlaceRange{{20, 3, 1}, {20, 3, 1}})) << "on the way there";
-  EXPECT_EQ(rest.executed(begins + 6, begins + 7), (PlaceRange{{27, 4, 1}, {27, 4, 1}}));
+  EXPECT_EQ(rest.executed(prologue().size() + 1, begins), (jobs::PlaceRange{{20, 3, 1}, {20, 3, 1}}))
+      << "on the way there";
+  EXPECT_EQ(rest.executed(begins + 6, begins + 7), (jobs::PlaceRange{{27, 4, 1}, {27, 4, 1}}));
 }
 
 class ExecutedPlaceTest : public MillControllerTest {
  protected:
-  void begin(const std::vector<JobPart>& parts = {}) {
-    Job job{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  void begin(const std::vector<jobs::JobPart>& parts = {}) {
+    jobs::Job job{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
     job.bytes = vectors(20).size();
     job.parts = parts;
     mill_.add(std::move(job), now_);
     run_job(1);
   }
-  const std::optional<PlaceRange>& executed() const { return mill_.jobs().front().executed; }
+  const std::optional<jobs::PlaceRange>& executed() const { return mill_.jobs().front().executed; }
 };
 
 // By test_profile() the spindle starts in 2 s and a move takes 0.9 s. By the slack of SendSettings the slowest mill
@@ -78,7 +80,7 @@ TEST_F(ExecutedPlaceTest, IsKnownWhenAnAbortIsRequestedAndSaidWhenItWasSent) {
   ASSERT_FALSE(executed());
   mill_.abort({.who = "unix bert"}, now_);
   ASSERT_TRUE(executed());
-  EXPECT_EQ(executed()->least, (Place{24, 1, 25}));
+  EXPECT_EQ(executed()->least, (jobs::Place{24, 1, 25}));
   EXPECT_EQ(executed()->most.offset, noted_);
   const std::size_t column = noted_ + 1;
   run_for(1s);
@@ -97,7 +99,7 @@ TEST_F(ExecutedPlaceTest, IsNotByTheProfileWhereTheLineIsStopped) {
   ASSERT_LT(line_.received.size(), settings_.sending.buffer);
   mill_.abort({.who = "unix bert"}, now_);
   ASSERT_TRUE(executed());
-  EXPECT_EQ(executed()->least, (Place{0, 1, 1}));
+  EXPECT_EQ(executed()->least, (jobs::Place{0, 1, 1}));
   EXPECT_EQ(executed()->most.offset, noted_);
 }
 
@@ -107,9 +109,9 @@ TEST_F(ExecutedPlaceTest, TheFirstAbortCounts) {
   run_for(2500ms);
   line_.busy = true;
   mill_.abort({.who = "unix bert"}, now_);
-  const PlaceRange first = *executed();
+  const jobs::PlaceRange first = *executed();
   run_for(100ms);
-  ASSERT_EQ(state(1), JobState::running) << "the abort does not leave";
+  ASSERT_EQ(state(1), jobs::JobState::running) << "the abort does not leave";
   mill_.abort({.who = "unix carl"}, now_);
   EXPECT_EQ(executed(), first);
 }
@@ -128,15 +130,15 @@ TEST_F(ExecutedPlaceTest, AStartForgetsAnAbortThatWasLost) {
   line_.busy = true;
   mill_.abort({.who = "unix bert"}, now_);
   mill_.link_down(now_, "unplugged");
-  ASSERT_EQ(state(1), JobState::paused_unknown);
+  ASSERT_EQ(state(1), jobs::JobState::paused_unknown);
   ASSERT_TRUE(executed());
-  ASSERT_TRUE(mill_.choose_rest(1, {Place()}, "unix anna", now_));
+  ASSERT_TRUE(mill_.choose_rest(1, {jobs::Place()}, "unix anna", now_));
   line_.busy = false;
   mill_.link_up(now_);
   run_for(1s);
   ASSERT_TRUE(mill_.confirm(1, mill_.jobs().front().setup, "unix bert", now_));
-  const auto rest =
-      std::make_shared<const PreparedJob>(vectors(20), "d1", profile_, std::nullopt, settings_.sending, 0, Place());
+  const auto rest = std::make_shared<const PreparedJob>(vectors(20), "d1", profile_, std::nullopt, settings_.sending, 0,
+                                                        jobs::Place());
   ASSERT_TRUE(mill_.start(1, rest, {.who = "unix anna"}, now_));
   EXPECT_FALSE(executed());
 }

@@ -32,7 +32,7 @@ double seconds(Duration time) { return std::chrono::duration<double>(time).count
 // A mill with flow control, and the streaming that feeds it.
 struct Way {
   Profile profile;
-  Streaming streaming = Streaming::full;
+  jobs::Streaming streaming = jobs::Streaming::full;
   std::string_view acceleration = "none";
 };
 
@@ -52,11 +52,11 @@ PreparedJob prepared(const std::string& body, const Way& way) {
   return {body, "", way.profile, kAtHome, {.streaming = way.streaming, .flow_control = true}};
 }
 
-Way on(std::string_view acceleration, Streaming streaming = Streaming::full) {
+Way on(std::string_view acceleration, jobs::Streaming streaming = jobs::Streaming::full) {
   return {short_vectors_profile(), streaming, acceleration};
 }
 
-void expect_within(const TimeRange& takes, double driven, const std::string& what) {
+void expect_within(const jobs::TimeRange& takes, double driven, const std::string& what) {
   EXPECT_GE(driven, seconds(takes.least) * 0.999 - 0.01) << what;
   EXPECT_LE(driven, seconds(takes.most) + 0.01) << what;
 }
@@ -72,8 +72,8 @@ TEST(JobTimes, OfOneMove) {
 TEST(JobTimes, WithoutAnOriginWaysAboveTheSurfaceMayBeNone) {
   const std::string body = "!MC0;^PA;V10;!PZ-100,2000;F10;PU0,0;PD0,0;PD1000,0;PU1000,0;";
   const Profile profile = short_vectors_profile();
-  const PreparedJob anywhere(body, "", profile, std::nullopt, {.streaming = Streaming::full});
-  const PreparedJob deep(body, "", profile, Origin{0, 0, 30}, {.streaming = Streaming::full});
+  const PreparedJob anywhere(body, "", profile, std::nullopt, {.streaming = jobs::Streaming::full});
+  const PreparedJob deep(body, "", profile, jobs::Origin{0, 0, 30}, {.streaming = jobs::Streaming::full});
   EXPECT_LT(anywhere.times().whole().least, deep.times().whole().least);
   EXPECT_NEAR(seconds(anywhere.times().whole().least), 1 + 0.2, 0.15) << "and 1 mm down, and up";
 }
@@ -88,7 +88,7 @@ TEST(JobTimes, OfAMillThatStopsAtEachPoint) {
 
 TEST(JobTimes, ContainWhatTheMillTakes) {
   for (const auto& [name, body] : {std::pair{"uniform", uniform_vectors(400)}, {"bursts", bursts_of_vectors(400)}}) {
-    for (const Streaming streaming : {Streaming::full, Streaming::paced}) {
+    for (const jobs::Streaming streaming : {jobs::Streaming::full, jobs::Streaming::paced}) {
       for (const std::string_view acceleration : {"none", "best", "worst"}) {
         const Way way = on(acceleration, streaming);
         const PreparedJob job = prepared(body, way);
@@ -100,18 +100,18 @@ TEST(JobTimes, ContainWhatTheMillTakes) {
 
 // The mill receives bytes only as fast as the slowest mill would have room for them.
 TEST(JobTimes, OfAPacedJobAreThoseOfItsSending) {
-  const PreparedJob job = prepared(uniform_vectors(400), on("none", Streaming::paced));
-  const TimeRange takes = job.times().whole();
+  const PreparedJob job = prepared(uniform_vectors(400), on("none", jobs::Streaming::paced));
+  const jobs::TimeRange takes = job.times().whole();
   EXPECT_GT(seconds(takes.least), 0.98 * seconds(takes.most) - 1);
   EXPECT_NEAR(seconds(takes.most), job.timeline().slowest_s() * 1.5, 0.02 * seconds(takes.most));
 }
 
 TEST(JobTimes, WhatIsLeftBeginsAtAllAndEndsAtNothing) {
-  for (const Streaming streaming : {Streaming::full, Streaming::paced}) {
+  for (const jobs::Streaming streaming : {jobs::Streaming::full, jobs::Streaming::paced}) {
     const PreparedJob job = prepared(uniform_vectors(100), on("none", streaming));
     const JobTimes& times = job.times();
     EXPECT_EQ(times.left(0, 0), times.whole());
-    EXPECT_EQ(times.left(job.text().size(), job.text().size()), TimeRange());
+    EXPECT_EQ(times.left(job.text().size(), job.text().size()), jobs::TimeRange());
     const std::size_t half = job.text().size() / 2;
     EXPECT_LT(times.left(half, half).most, times.whole().most);
     EXPECT_GT(times.left(half, half).least, Duration());
@@ -124,14 +124,14 @@ TEST(JobTimes, WhatIsLeftBeginsAtAllAndEndsAtNothing) {
 TEST(JobTimes, WhatIsLeftFollowsAMillThatShowsItsPace) {
   const Way way = on("none");
   const PreparedJob job = prepared(uniform_vectors(3000), way);
-  const MeasuredPace pace{0.2, 0.22};
-  const SendProgress progress{.executed_least = 1000, .executed_most = 2000};
-  const TimeRange left = left_of(job, progress, pace);
+  const jobs::MeasuredPace pace{0.2, 0.22};
+  const jobs::SendProgress progress{.executed_least = 1000, .executed_most = 2000};
+  const jobs::TimeRange left = left_of(job, progress, pace);
   EXPECT_NEAR(seconds(left.most), job.timeline().slowest_after(1000) * 0.22 * 1.1, 1e-6);
   EXPECT_NEAR(seconds(left.least), job.timeline().slowest_after(2000) * 0.2 / 1.1, 1e-6);
-  const TimeRange full_speed = job.times().left(1000, 1000);
-  EXPECT_EQ(left_of(job, {.executed_least = 1000, .executed_most = 1000}, MeasuredPace{0.01, 0.011}),
-            (TimeRange{full_speed.least, full_speed.least}))
+  const jobs::TimeRange full_speed = job.times().left(1000, 1000);
+  EXPECT_EQ(left_of(job, {.executed_least = 1000, .executed_most = 1000}, jobs::MeasuredPace{0.01, 0.011}),
+            (jobs::TimeRange{full_speed.least, full_speed.least}))
       << "no mill is faster than at full speed";
   EXPECT_EQ(left_of(job, progress, std::nullopt), job.times().left(1000, 2000));
 }
@@ -171,13 +171,13 @@ struct Compared {
   double stated = 0, driven = 0;  // ratio of the longest to the shortest
 };
 
-Compared compared(const Written& written, const Profile& profile, Streaming streaming) {
+Compared compared(const Written& written, const Profile& profile, jobs::Streaming streaming) {
   Compared found;
   std::vector<double> driven;
   for (const std::string_view acceleration : {"none", "best", "worst"}) {
     const Way way{profile, streaming, acceleration};
     const PreparedJob job = prepared(written.body, way);
-    const TimeRange takes = job.times().whole();
+    const jobs::TimeRange takes = job.times().whole();
     driven.push_back(driven_s(job, way));
     expect_within(takes, driven.back(), fmt::format("{} {}", written.file, acceleration));
     found.stated = seconds(takes.most) / seconds(takes.least);
@@ -195,12 +195,12 @@ TEST_P(TimesOfWrittenJobs, ContainWhatTheMillTakes) {
   ASSERT_EQ(jobs.size(), 40U);
   std::map<std::string, double> widest;
   for (const Written& written : jobs) {
-    for (const Streaming streaming : {Streaming::full, Streaming::paced}) {
+    for (const jobs::Streaming streaming : {jobs::Streaming::full, jobs::Streaming::paced}) {
       const Compared found = compared(written, *profile, streaming);
       if (written.mill != GetParam()) continue;
       const double useful = written.kind.starts_with("relief") ? 4 : 2;
       EXPECT_LE(found.stated, std::max(useful, found.driven * 1.1)) << written.file;
-      double& most = widest[streaming == Streaming::full ? written.kind : "paced"];
+      double& most = widest[streaming == jobs::Streaming::full ? written.kind : "paced"];
       most = std::max(most, found.stated);
     }
   }

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Stock of 1000 x 1000 x 500 steps.
-constexpr Stock kStock{10, 10, 5};
+constexpr jobs::Stock kStock{10, 10, 5};
 
 // Returns diagnostics as text, "warning 0 at 7 [5-1]", without the warning about a Z1 of the profile (trace.h).
 std::vector<std::string> all(const Check& check) {
@@ -99,7 +99,7 @@ TEST(WorkArea, IsNotKnownWithoutOrigin) {
 }
 
 TEST(WorkArea, EndsAtTheBottom) {
-  const CheckOptions low{Origin{100, 100, 55}, {}, {}};
+  const CheckOptions low{jobs::Origin{100, 100, 55}, {}, {}};
   const Judged found = judge("Z0,0,-551;Z0,0,-2000;PU;", low);
   EXPECT_THAT(found.told, ElementsAre("warning 0 at 0 [5-1]"));
   EXPECT_THAT(found.text, HasSubstr("5.51 mm below the surface, and the machine reaches 5.50 mm"));
@@ -171,7 +171,7 @@ TEST(Errors, OfAJobThatHasLostBytes) {
   ASSERT_EQ(texts.size(), 4u);
   EXPECT_EQ(texts[0].text,
             "sound before line 12, and from line 12 on 3 errors: is it damaged there, or were bytes lost?");
-  EXPECT_EQ(texts[0].place, (Place{job.size(), 12, 1}));
+  EXPECT_EQ(texts[0].place, (jobs::Place{job.size(), 12, 1}));
   EXPECT_EQ(checked(job + "Q;\n,;\n", test_profile())->diagnostics().kept().size(), 2u);
 }
 

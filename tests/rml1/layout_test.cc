@@ -18,7 +18,7 @@ using testing::Not;
 
 class Shown {
  public:
-  explicit Shown(const std::string& job, std::optional<Origin> origin = {}, std::optional<Stock> stock = {})
+  explicit Shown(const std::string& job, std::optional<jobs::Origin> origin = {}, std::optional<jobs::Stock> stock = {})
       : check_(profile_, {origin, stock, {}}, &strokes_) {
     check_.feed(job);
     check_.finish();
@@ -38,12 +38,12 @@ class Shown {
     return texts;
   }
   // Returns the range that a view shows, in steps.
-  Reach across(std::size_t view) const {
+  jobs::Reach across(std::size_t view) const {
     const Picture::View& one = picture_->views[view];
     const double scale = one.scale_across();
     return {true, (one.frame.x - one.x) / scale, (one.frame.x + one.frame.width - one.x) / scale};
   }
-  Reach up(std::size_t view) const {
+  jobs::Reach up(std::size_t view) const {
     const Picture::View& one = picture_->views[view];
     const double scale = one.scale_up();
     return {true, (one.y - one.frame.y - one.frame.height) / scale, (one.y - one.frame.y) / scale};
@@ -65,7 +65,7 @@ bool lies_in(const Picture& picture, const Picture::Rectangle& one) {
 TEST(Views, LieOnThePageApartFromEachOther) {
   for (const char* job : {kSquare.c_str(), "@-50,200;PU0,0;PD50000,0;PU;", "@-50,200;PU0,0;PD0,50000;PU;", "Z9,9,-9;",
                           "F5;", "PU99,99;"}) {
-    for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
+    for (const auto& origin : {std::optional<jobs::Origin>(), std::optional<jobs::Origin>(kMidway)}) {
       const Shown shown(job, origin);
       for (const Picture::View& view : shown->views) EXPECT_TRUE(lies_in(*shown, view.frame)) << job;
       for (const Picture::Rectangle& one : shown->rectangles) EXPECT_TRUE(lies_in(*shown, one)) << job;
@@ -78,8 +78,8 @@ TEST(Views, LieOnThePageApartFromEachOther) {
 // Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000: if the view showed the lifts,
 // it would show little of a cut of 50.
 TEST(Views, ShowTheCutAndNotTheLift) {
-  for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
-    const Reach z = Shown(kSquare, origin).up(1);
+  for (const auto& origin : {std::optional<jobs::Origin>(), std::optional<jobs::Origin>(kMidway)}) {
+    const jobs::Reach z = Shown(kSquare, origin).up(1);
     EXPECT_GE(z.highest, 50);
     EXPECT_LE(z.highest, 60);
     EXPECT_LE(z.lowest, -50);

@@ -39,7 +39,7 @@ void draw_mill(Random& random, LineFaultPlan& plan) {
   plan.mill.flow = flow;
   plan.mill.buffer_bytes = buffer;
   plan.mill.slower_percent = static_cast<double>(random.between(0, 50));
-  plan.settings.sending = {.streaming = full ? Streaming::full : Streaming::paced,
+  plan.settings.sending = {.streaming = full ? jobs::Streaming::full : jobs::Streaming::paced,
                            .buffer = buffer,
                            .converter = converter,
                            .flow_control = flow != Flow::none};
@@ -96,7 +96,7 @@ LineFaultPlan line_fault_plan(std::uint64_t seed, const Profile& profile) {
   plan.body = random_mill_job(seed, static_cast<std::size_t>(random.between(60, 900)));
   draw_mill(random, plan);
   draw_bytes(random, plan);
-  const double slack = plan.settings.sending.streaming == Streaming::paced ? plan.settings.sending.slack : 1;
+  const double slack = plan.settings.sending.streaming == jobs::Streaming::paced ? plan.settings.sending.slack : 1;
   const std::chrono::duration<double> longest(Timeline(plan.body, profile, kMidway).slowest_s() * slack);
   const auto job = std::chrono::duration_cast<Duration>(longest);
   draw_stuck(random, plan, job);
@@ -110,14 +110,14 @@ LineFaultPlan line_fault_plan(std::uint64_t seed, const Profile& profile) {
 }
 
 std::string text_of(const LineFaultPlan& plan) {
-  const SendSettings& sending = plan.settings.sending;
+  const jobs::SendSettings& sending = plan.settings.sending;
   std::string text = fmt::format(
       "{}, flow {}, mill {} % slower, {}, buffer {}, converter {}{}, {} bytes late; byte {} {} (bit {}){}; before the "
       "start: {}",
-      sending.streaming == Streaming::paced ? "paced" : "full", kFlowNames.at(static_cast<std::size_t>(plan.mill.flow)),
-      plan.mill.slower_percent, plan.mill.options.describe(), sending.buffer, sending.converter,
-      plan.keeps_converter ? " (it keeps its bytes)" : "", plan.line.late, plan.byte_at,
-      kBytes.at(static_cast<std::size_t>(plan.byte)), plan.bit, plan.loses_xon ? ", an XON lost" : "",
+      sending.streaming == jobs::Streaming::paced ? "paced" : "full",
+      kFlowNames.at(static_cast<std::size_t>(plan.mill.flow)), plan.mill.slower_percent, plan.mill.options.describe(),
+      sending.buffer, sending.converter, plan.keeps_converter ? " (it keeps its bytes)" : "", plan.line.late,
+      plan.byte_at, kBytes.at(static_cast<std::size_t>(plan.byte)), plan.bit, plan.loses_xon ? ", an XON lost" : "",
       kBefore.at(static_cast<std::size_t>(plan.before_start)));
   for (const Act& act : plan.acts)
     text += fmt::format("; {} after {} ms", name(act.kind), act.at / std::chrono::milliseconds(1));

@@ -37,7 +37,7 @@ std::string_view name(Act::Kind kind);
 
 struct LineFaultPlan {
   std::string body;  // body of the job
-  MillSettings settings;
+  jobs::MachineSettings settings;
   simulator::MillSetup mill;
   LineToMill::Setup line;
   ByteFault byte = ByteFault::none;

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Ordinary, MillSeeds, testing::Range(0, kSeeds / kSeedsA
 
 // Checks that the seeds end in different outcomes, and that each fault occurs.
 TEST(MillSeedsAll, EachOutcomeAndEachFaultOccurs) {
-  std::map<JobState, int> outcomes;
+  std::map<jobs::JobState, int> outcomes;
   int changed = 0, stuck = 0, xon_lost = 0, broke = 0, busy = 0;
   std::size_t ran_on = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -68,11 +68,11 @@ TEST(MillSeedsAll, EachOutcomeAndEachFaultOccurs) {
   std::cout << fmt::format(
       "FED {}, ABORTED {}, PAUSED_UNKNOWN {}; bytes changed {}, CTS stuck {}, XON lost {}, line broken {}, busy {}; "
       "ran on {}\n",
-      outcomes[JobState::fed], outcomes[JobState::aborted], outcomes[JobState::paused_unknown], changed, stuck,
-      xon_lost, broke, busy, ran_on);
-  EXPECT_GE(outcomes[JobState::fed], 20);
-  EXPECT_GE(outcomes[JobState::aborted], 20);
-  EXPECT_GE(outcomes[JobState::paused_unknown], 10);
+      outcomes[jobs::JobState::fed], outcomes[jobs::JobState::aborted], outcomes[jobs::JobState::paused_unknown],
+      changed, stuck, xon_lost, broke, busy, ran_on);
+  EXPECT_GE(outcomes[jobs::JobState::fed], 20);
+  EXPECT_GE(outcomes[jobs::JobState::aborted], 20);
+  EXPECT_GE(outcomes[jobs::JobState::paused_unknown], 10);
   for (const int count : {changed, stuck, xon_lost, broke, busy}) EXPECT_GE(count, 3);
 }
 

@@ -14,10 +14,10 @@ Played played(const std::string& job) { return play(job, test_profile(), kMidway
 
 // Reports whether `job` leaves relative coordinates in effect, from the end of a three-axis move by 1, 2, -3.
 bool leaves_relative(const std::string& job) {
-  const Point before = played(job).final;
-  const Point after = played(job + "!ZZ1,2,-3;").final;
-  const bool relative = after == before + Point{1, 2, -3};
-  EXPECT_NE(relative, after == (Point{1, 2, -3})) << job;
+  const jobs::Point before = played(job).final;
+  const jobs::Point after = played(job + "!ZZ1,2,-3;").final;
+  const bool relative = after == before + jobs::Point{1, 2, -3};
+  EXPECT_NE(relative, after == (jobs::Point{1, 2, -3})) << job;
   return relative;
 }
 
@@ -221,7 +221,7 @@ TEST(Home, ChangesNoSetting) {
 // "If the workpiece-coordinate origin point is outside the cutting range, then this moves, for example, to the clip
 // location" (3-1 H). X begins at 1000, Y at -500: 1000 0 is the nearest place.
 TEST(Home, GoesToTheNearestPlaceWhereTheOriginIsOutside) {
-  const Played found = play("Z2000,100,30;H;PR;Z5,0,-10;", test_profile(), Origin{-10, 5, 50});
+  const Played found = play("Z2000,100,30;H;PR;Z5,0,-10;", test_profile(), jobs::Origin{-10, 5, 50});
   const std::vector<std::string> all = ends(found);
   ASSERT_GE(all.size(), 3u);
   EXPECT_THAT(std::vector(all.end() - 3, all.end()), ElementsAre("2000 100 5000", "1000 0 5000", "1005 0 4990"));

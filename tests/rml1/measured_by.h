@@ -12,10 +12,10 @@
 namespace axisgate::rml1 {
 
 // Returns the measured pace. `line` is the line as the host sees it; its converter must also be in the settings.
-inline std::optional<MeasuredPace> measured_by(const std::string& job, simulator::MillSetup mill, SendSettings settings,
-                                               LineToMill::Setup line) {
+inline std::optional<jobs::MeasuredPace> measured_by(const std::string& job, simulator::MillSetup mill,
+                                                     jobs::SendSettings settings, LineToMill::Setup line) {
   const Timeline timeline(job, test_profile(), kMidway);
-  settings.streaming = Streaming::full;
+  settings.streaming = jobs::Streaming::full;
   AbortBench bench(job, timeline, std::move(mill), settings, line);
   bench.finish();
   return bench.sender().measured_pace();

@@ -9,7 +9,7 @@ namespace {
 
 class Witness : public ParserListener, public MachineListener {
  public:
-  Witness(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics)
+  Witness(const Profile& profile, std::optional<jobs::Origin> origin, Diagnostics& diagnostics)
       : diagnostics_(diagnostics), machine_(profile, origin, diagnostics, *this) {}
 
   void execute(const Instruction& instruction) override {
@@ -24,7 +24,7 @@ class Witness : public ParserListener, public MachineListener {
     constexpr const char* kNames[] = {"spin up", "dwell", "turn"};
     played.waits.push_back(fmt::format("{} {}", kNames[static_cast<std::size_t>(what)], seconds));
   }
-  void commanded(const Point&, const Point& target, bool, const Instruction&) override {
+  void commanded(const jobs::Point&, const jobs::Point& target, bool, const Instruction&) override {
     played.commanded.push_back(target);
   }
   void lifted(double, const Instruction&) override {}
@@ -79,7 +79,7 @@ Profile test_profile() {
   return profile;
 }
 
-Played play(const std::string& job, const Profile& profile, std::optional<Origin> origin,
+Played play(const std::string& job, const Profile& profile, std::optional<jobs::Origin> origin,
             std::span<const Row> more_rows, const std::vector<std::size_t>& cuts) {
   Diagnostics diagnostics;
   Witness witness(profile, origin, diagnostics);

@@ -17,14 +17,14 @@ struct Played {
   std::vector<std::string> commands;  // "PD 100 100 0 1", "!ZE X1 Y2": command with its executed parameters
   std::vector<Diagnostic> diagnostics;
   std::vector<Move> moves;
-  std::vector<std::string> waits;  // "spin up 2", "dwell 0.5", "turn 3"
-  std::vector<Point> commanded;    // end of each commanded path
-  Point final;
+  std::vector<std::string> waits;      // "spin up 2", "dwell 0.5", "turn 3"
+  std::vector<jobs::Point> commanded;  // end of each commanded path
+  jobs::Point final;
   Box box;
 };
 
 // Plays a job. `cuts` are the places at which its bytes are divided into pieces.
-Played play(const std::string& job, const Profile& profile, std::optional<Origin> origin = {},
+Played play(const std::string& job, const Profile& profile, std::optional<jobs::Origin> origin = {},
             std::span<const Row> more_rows = {}, const std::vector<std::size_t>& cuts = {});
 
 // Returns the sum of one of the times of all steps.

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::StartsWith;
-using enum JobState;
+using enum jobs::JobState;
 
 using MillAbortTest = MillControllerTest;
 

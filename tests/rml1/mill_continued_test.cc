@@ -16,23 +16,23 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
-using enum JobState;
+using enum jobs::JobState;
 
 // Lift by test_profile(): Z rises with 15 mm/s, and its top is at 0. A permitted spindle turns while the tool rises.
 constexpr std::string_view kLift = "^PA;!VZ15;!ZM0;!MC0;";
 
 class MillContinuedTest : public MillControllerTest {
  protected:
-  const Job& job(JobNumber number) const {
-    static const Job none;
-    for (const Job& one : mill_.jobs()) {
+  const jobs::Job& job(jobs::JobNumber number) const {
+    static const jobs::Job none;
+    for (const jobs::Job& one : mill_.jobs()) {
       if (one.number == number) return one;
     }
     ADD_FAILURE() << "there is no job " << number;
     return none;
   }
-  void begin(JobNumber number = 1, int count = 20) {
-    Job job{.number = number, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  void begin(jobs::JobNumber number = 1, int count = 20) {
+    jobs::Job job{.number = number, .name = "part.rml", .owner = "unix anna", .setup = setup()};
     job.bytes = vectors(count).size();
     mill_.add(std::move(job), now_);
     run_job(number, count);
@@ -47,16 +47,18 @@ class MillContinuedTest : public MillControllerTest {
     run_for(60s);
     ASSERT_EQ(state(1), paused);
   }
-  Result<void> confirm_as_shown(JobNumber number) {
+  Result<void> confirm_as_shown(jobs::JobNumber number) {
     return mill_.confirm(number, job(number).setup, "unix bert", now_);
   }
-  std::shared_ptr<const PreparedJob> rest_from(const Place& from) const {
+  std::shared_ptr<const PreparedJob> rest_from(const jobs::Place& from) const {
     const std::string body = vectors(20);
     const Result<Approach> approach = approach_to(body, from.offset, profile_, std::nullopt);
     return std::make_shared<const PreparedJob>(body, "d1", profile_, std::nullopt, settings_.sending, 0, from,
                                                *approach);
   }
-  Result<void> start_rest(const Place& from) { return mill_.start(1, rest_from(from), {.who = "unix anna"}, now_); }
+  Result<void> start_rest(const jobs::Place& from) {
+    return mill_.start(1, rest_from(from), {.who = "unix anna"}, now_);
+  }
 };
 
 TEST_F(MillContinuedTest, WhatWasSentIsExecutedThenTheToolRisesAndTheSpindleStops) {
@@ -74,7 +76,7 @@ TEST_F(MillContinuedTest, WhatWasSentIsExecutedThenTheToolRisesAndTheSpindleStop
 }
 
 TEST_F(MillContinuedTest, ItsPlanIsCorrectedWhileItWaitsThere) {
-  Job sent{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  jobs::Job sent{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
   sent.bytes = vectors(20).size();
   sent.parts = {{"T1", sent.bytes}};
   mill_.add(sent, now_);
@@ -83,7 +85,7 @@ TEST_F(MillContinuedTest, ItsPlanIsCorrectedWhileItWaitsThere) {
   ASSERT_TRUE(mill_.pause(true, now_));
   run_for(60s);
   ASSERT_EQ(state(1), paused);
-  Job planned = job(1);
+  jobs::Job planned = job(1);
   planned.parts[0].takes = {1s, 2s};
   mill_.plan_rest(planned);
   EXPECT_EQ(job(1).parts[0].takes.most, 2s);
@@ -94,17 +96,17 @@ TEST_F(MillContinuedTest, ItsPlanIsCorrectedWhileItWaitsThere) {
 }
 
 // Place of the second vector: "V15;VS15;" and "PU1000,0;" end at byte 18.
-constexpr Place kSecondVector{18, 1, 19};
+constexpr jobs::Place kSecondVector{18, 1, 19};
 
 TEST_F(MillContinuedTest, TheRestOfAnotherJobWaitsAsAnyOther) {
-  Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  jobs::Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
   rest.setup.from = kSecondVector;
   rest.bytes = vectors(20).size();
   mill_.add(rest, now_);
   add(2);
   EXPECT_EQ(state(1), queued);
-  ASSERT_TRUE(mill_.move_first(2, Overtaken::all, "unix root", now_)) << "nothing of it has begun";
-  ASSERT_TRUE(mill_.move_first(1, Overtaken::all, "unix root", now_));
+  ASSERT_TRUE(mill_.move_first(2, jobs::Overtaken::all, "unix root", now_)) << "nothing of it has begun";
+  ASSERT_TRUE(mill_.move_first(1, jobs::Overtaken::all, "unix root", now_));
   ASSERT_TRUE(confirm_as_shown(1));
   mill_.setup_changed("a test", now_);
   EXPECT_EQ(state(1), queued);
@@ -112,7 +114,7 @@ TEST_F(MillContinuedTest, TheRestOfAnotherJobWaitsAsAnyOther) {
 }
 
 TEST_F(MillContinuedTest, TheRestOfAnotherJobContinuesOnceItHasBegun) {
-  Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  jobs::Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
   rest.setup.from = kSecondVector;
   rest.bytes = vectors(20).size();
   mill_.add(rest, now_);
@@ -134,12 +136,12 @@ TEST_F(MillContinuedTest, ItGoesOnBehindWhatWasSent) {
   const std::string before = written().substr(sent, written().size() - sent - kLift.size());
   run_for(60s);
   ASSERT_TRUE(job(1).setup.from);
-  EXPECT_EQ(*job(1).setup.from, (Place{before.size(), 1, before.size() + 1}));
+  EXPECT_EQ(*job(1).setup.from, (jobs::Place{before.size(), 1, before.size() + 1}));
 }
 
 TEST_F(MillContinuedTest, ItsRestIsConfirmedAndStartedAndLeavesNothingOut) {
   raise_to_end();
-  const Place from = *job(1).setup.from;
+  const jobs::Place from = *job(1).setup.from;
   EXPECT_EQ(reason(start_rest(from)), Reason::not_allowed) << "it is not confirmed";
   EXPECT_EQ(reason(confirm(1)), Reason::stale_setpoint) << "seen without where it continues";
   ASSERT_TRUE(confirm_as_shown(1));
@@ -158,8 +160,8 @@ TEST_F(MillContinuedTest, OnlyWhatWasConfirmedStarts) {
   raise_to_end();
   ASSERT_TRUE(confirm_as_shown(1));
   EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::internal) << "from its beginning";
-  const std::uint64_t elsewhere = offset_of(vectors(20), 1, 10);
-  EXPECT_EQ(reason(start_rest(place_of(vectors(20), elsewhere))), Reason::internal);
+  const std::uint64_t elsewhere = jobs::offset_of(vectors(20), 1, 10);
+  EXPECT_EQ(reason(start_rest(jobs::place_of(vectors(20), elsewhere))), Reason::internal);
 }
 
 TEST_F(MillContinuedTest, NoOtherJobIsConfirmedBeforeIt) {
@@ -246,7 +248,7 @@ TEST_F(MillContinuedTest, AtItsEndAJobIsNotRaised) {
 TEST_F(MillContinuedTest, ALostJobGoesOnWhereSomebodyHasChosen) {
   begin();
   run_for(3s);
-  const Place from{9, 1, 10};
+  const jobs::Place from{9, 1, 10};
   EXPECT_EQ(reason(mill_.choose_rest(1, {from}, "unix anna", now_)), Reason::wrong_mode) << "it runs";
   mill_.link_down(now_, "unplugged");
   EXPECT_EQ(reason(mill_.choose_rest(2, {from}, "unix anna", now_)), Reason::not_found);
@@ -264,8 +266,8 @@ TEST_F(MillContinuedTest, ALostJobGoesOnWhereSomebodyHasChosen) {
 
 TEST_F(MillContinuedTest, WhatWasSentOfItIsKnownUntilItContinues) {
   raise_to_end();
-  const Place from = *job(1).setup.from;
-  const WrittenRange written{from.offset, from.offset};
+  const jobs::Place from = *job(1).setup.from;
+  const jobs::WrittenRange written{from.offset, from.offset};
   EXPECT_EQ(job(1).written, written);
   ASSERT_TRUE(mill_.choose_rest(1, {{9, 1, 10}}, "unix anna", now_));
   EXPECT_EQ(job(1).written, written) << "and not the place that was chosen";
@@ -276,7 +278,7 @@ TEST_F(MillContinuedTest, WhatWasSentOfItIsKnownUntilItContinues) {
 
 TEST_F(MillContinuedTest, OfARestThatIsLostAtLeastWhatCameBeforeItWasSent) {
   raise_to_end();
-  const Place from = *job(1).setup.from;
+  const jobs::Place from = *job(1).setup.from;
   ASSERT_TRUE(confirm_as_shown(1));
   ASSERT_TRUE(start_rest(from));
   mill_.link_down(now_, "unplugged");
@@ -285,8 +287,8 @@ TEST_F(MillContinuedTest, OfARestThatIsLostAtLeastWhatCameBeforeItWasSent) {
 
 TEST_F(MillContinuedTest, OverARestart) {
   MillController after(profile_, settings_, line_, *this, permission_);
-  Job paused_job{.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused};
-  paused_job.setup.from = Place{9, 1, 10};
+  jobs::Job paused_job{.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused};
+  paused_job.setup.from = jobs::Place{9, 1, 10};
   after.inherit(paused_job);
   after.link_up(now_);
   EXPECT_THAT(line_.writes, IsEmpty()) << "the tool is up";

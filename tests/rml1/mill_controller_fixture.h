@@ -17,7 +17,7 @@
 
 namespace axisgate::rml1 {
 
-class MillControllerTest : public testing::Test, protected MillEvents {
+class MillControllerTest : public testing::Test, protected jobs::MachineEvents {
  protected:
   void SetUp() override { mill_.link_up(now_); }
   void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
@@ -28,17 +28,17 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
     return job;
   }
-  static JobSetup setup(std::string digest = "d1") { return {std::move(digest), "test", "corner", "T1"}; }
-  void add(JobNumber number, std::string owner = "unix anna", std::string digest = "d1") {
-    Job job{.number = number, .name = "part.rml", .owner = std::move(owner), .setup = setup(std::move(digest))};
+  static jobs::JobSetup setup(std::string digest = "d1") { return {std::move(digest), "test", "corner", "T1"}; }
+  void add(jobs::JobNumber number, std::string owner = "unix anna", std::string digest = "d1") {
+    jobs::Job job{.number = number, .name = "part.rml", .owner = std::move(owner), .setup = setup(std::move(digest))};
     mill_.add(std::move(job), now_);
   }
   std::shared_ptr<const PreparedJob> prepared(int count = 20, std::string digest = "d1") {
     return std::make_shared<const PreparedJob>(vectors(count), std::move(digest), profile_, std::nullopt,
                                                settings_.sending);
   }
-  Result<void> confirm(JobNumber number) { return mill_.confirm(number, setup(), "unix bert", now_); }
-  void run_job(JobNumber number, int count = 20) {
+  Result<void> confirm(jobs::JobNumber number) { return mill_.confirm(number, setup(), "unix bert", now_); }
+  void run_job(jobs::JobNumber number, int count = 20) {
     ASSERT_TRUE(confirm(number));
     ASSERT_TRUE(mill_.start(number, prepared(count), {.who = "unix anna"}, now_));
   }
@@ -49,8 +49,8 @@ class MillControllerTest : public testing::Test, protected MillEvents {
       ASSERT_EQ(mill_.broken_invariant(), "");
     }
   }
-  JobState state(JobNumber number) const {
-    for (const Job& job : mill_.jobs()) {
+  jobs::JobState state(jobs::JobNumber number) const {
+    for (const jobs::Job& job : mill_.jobs()) {
       if (job.number == number) return job.state;
     }
     return ended_.at(number);
@@ -62,22 +62,22 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   }
   static Reason reason(const Result<void>& result) { return result ? Reason::unspecified : result.error().reason; }
 
-  void link_changed(MillLink, std::string_view, TimePoint) override {}
-  void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override {
+  void link_changed(jobs::MachineLink, std::string_view, TimePoint) override {}
+  void job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint) override {
     ended_[job.number] = job.state;
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
     by_[job.state] = by;
   }
-  void rank_changed(const Job& job) override { ranks_[job.number] = job.rank; }
+  void rank_changed(const jobs::Job& job) override { ranks_[job.number] = job.rank; }
   void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
   void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
-  void sender_changed(const RunningJob& running, TimePoint) override {
+  void sender_changed(const jobs::RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
     if (running.busy) said_.emplace_back("busy");
   }
-  void written(std::string_view, JobNumber) override {}
+  void written(std::string_view, jobs::JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override { ++aborts_requested_; }
-  void about_to_write(JobNumber, const WrittenRange& sent) override {
+  void about_to_write(jobs::JobNumber, const jobs::WrittenRange& sent) override {
     noted_ = sent.most;
     written_before_note_ = line_.writes.size();
   }
@@ -85,11 +85,11 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   const Profile profile_ = test_profile();
   FakeMillLine line_;
   TimePoint now_{std::chrono::seconds(1000)};
-  MillSettings settings_;
-  std::map<JobNumber, JobState> ended_;
-  std::map<JobNumber, std::int64_t> ranks_;  // ranks that were stored
+  jobs::MachineSettings settings_;
+  std::map<jobs::JobNumber, jobs::JobState> ended_;
+  std::map<jobs::JobNumber, std::int64_t> ranks_;  // ranks that were stored
   std::vector<std::string> said_;
-  std::map<JobState, std::string> by_;
+  std::map<jobs::JobState, std::string> by_;
   std::uint64_t noted_ = 0, surfaces_ = 0;
   std::size_t written_before_note_ = 0;
   int aborts_requested_ = 0;

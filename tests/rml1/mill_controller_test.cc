@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-using enum JobState;
+using enum jobs::JobState;
 
 TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
   add(1);
@@ -33,7 +33,7 @@ TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
   EXPECT_THAT(mill_.jobs(), IsEmpty());
   EXPECT_EQ(
       by_,
-      (std::map<JobState, std::string>{
+      (std::map<jobs::JobState, std::string>{
           {queued, "unix anna"}, {confirmed, "unix bert"}, {running, "unix anna"}, {fed, ""}, {done, "unix bert"}}));
   EXPECT_THAT(said_, ElementsAre("QUEUED", "CONFIRMED", "RUNNING", "SENDING", "FINISHING", "FED", "FED", "DONE"));
 }
@@ -100,8 +100,9 @@ TEST_F(MillControllerTest, AConfirmationExpires) {
 
 TEST_F(MillControllerTest, AConfirmationIsForWhatTheJobNeeds) {
   add(1);
-  for (const JobSetup& other : {JobSetup{"d2", "test", "corner", "T1"}, JobSetup{"d1", "mdx-15", "corner", "T1"},
-                                JobSetup{"d1", "test", "", "T1"}, JobSetup{"d1", "test", "corner", "T2"}}) {
+  for (const jobs::JobSetup& other :
+       {jobs::JobSetup{"d2", "test", "corner", "T1"}, jobs::JobSetup{"d1", "mdx-15", "corner", "T1"},
+        jobs::JobSetup{"d1", "test", "", "T1"}, jobs::JobSetup{"d1", "test", "corner", "T2"}}) {
     EXPECT_EQ(reason(mill_.confirm(1, other, "unix bert", now_)), Reason::stale_setpoint);
   }
   EXPECT_EQ(state(1), queued);
@@ -265,7 +266,7 @@ TEST_F(MillControllerTest, AnAbortThatWaitedWhenTheDaemonEndedIsSent) {
 
 // The abort may still have been in the host, or in a converter of 512 bytes: 0.53 s at 9600 baud.
 TEST_F(MillControllerTest, AnAbortThatTheLineMayHaveLostIsSentAgain) {
-  settings_.at_loss = AtLoss::leave;
+  settings_.at_loss = jobs::AtLoss::leave;
   MillController mill(profile_, settings_, line_, *this, permission_);
   const auto sent_after = [&](Duration time) {
     mill.link_up(now_);
@@ -308,7 +309,7 @@ TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
                  .owner = "unix anna",
                  .setup = setup(),
                  .state = paused_unknown,
-                 .written = WrittenRange{0, 900}});
+                 .written = jobs::WrittenRange{0, 900}});
   EXPECT_EQ(after.jobs().front().state, paused_unknown);
   after.link_up(now_);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
@@ -320,7 +321,7 @@ TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
 }
 
 TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
-  settings_.at_loss = AtLoss::leave;
+  settings_.at_loss = jobs::AtLoss::leave;
   MillController other(profile_, settings_, line_, *this, permission_);
   other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
   other.link_up(now_);
@@ -329,7 +330,7 @@ TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
 
 // `leave` applies to jobs whose line was lost, not to an abort that a person requested.
 TEST_F(MillControllerTest, AtLossLeaveSendsAnAbortThatTheRunBeforeCouldNotSend) {
-  settings_.at_loss = AtLoss::leave;
+  settings_.at_loss = jobs::AtLoss::leave;
   MillController other(profile_, settings_, line_, *this, permission_);
   other.inherit_abort();
   other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
@@ -356,7 +357,7 @@ TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {
 TEST_F(MillControllerTest, AMillThatKeepsTheLineAtTheEndIsBusyAndNotFed) {
   add(1);
   run_job(1, 2);
-  while (mill_.running(now_)->sender == SenderState::sending) run_for(1ms);
+  while (mill_.running(now_)->sender == jobs::SenderState::sending) run_for(1ms);
   line_.busy = true;
   run_for(11min);
   EXPECT_EQ(state(1), running);

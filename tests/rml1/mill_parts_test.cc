@@ -20,19 +20,19 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using enum JobState;
+using enum jobs::JobState;
 
 // Parts of 24, 12 and 14 bytes, each lasting a few seconds by the profile.
 constexpr std::string_view kPartBytes[] = {"V15;VS15;PU1000,0;PU0,0;", "V15;PU500,0;", "V15;PU0,500;;;"};
 // Prologue and epilogue by test_profile(): Z rises with 15 mm/s, and its top is at 0.
 constexpr std::string_view kPrologueBytes = ";^DF;", kEpilogueBytes = ";^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;";
 
-class MillPartsTest : public testing::Test, protected MillEvents {
+class MillPartsTest : public testing::Test, protected jobs::MachineEvents {
  protected:
   void SetUp() override { mill_.link_up(now_); }
   void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
 
-  static Job job_in_parts(JobNumber number) {
+  static jobs::Job job_in_parts(jobs::JobNumber number) {
     return {.number = number,
             .name = "part.rml",
             .owner = "unix anna",
@@ -40,7 +40,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
             .bytes = 50,
             .parts = {{"T1", 24}, {"T3", 36}, {"T1", 50}}};
   }
-  static Job job_that_leaves(JobNumber number, Leaves leaves) {
+  static jobs::Job job_that_leaves(jobs::JobNumber number, jobs::Leaves leaves) {
     return {.number = number,
             .name = "part.rml",
             .owner = "unix anna",
@@ -51,22 +51,22 @@ class MillPartsTest : public testing::Test, protected MillEvents {
   static std::shared_ptr<const PreparedJob> prepared(std::size_t part) {
     constexpr std::uint64_t begins[] = {0, 24, 36};
     static const Profile profile = test_profile();
-    return std::make_shared<const PreparedJob>(kPartBytes[part], "d", profile, std::nullopt, SendSettings(),
+    return std::make_shared<const PreparedJob>(kPartBytes[part], "d", profile, std::nullopt, jobs::SendSettings(),
                                                begins[part]);
   }
-  const Job& job(JobNumber number) const {
-    static const Job none;
-    for (const Job& one : mill_.jobs()) {
+  const jobs::Job& job(jobs::JobNumber number) const {
+    static const jobs::Job none;
+    for (const jobs::Job& one : mill_.jobs()) {
       if (one.number == number) return one;
     }
     ADD_FAILURE() << "there is no job " << number;
     return none;
   }
-  Result<void> confirm(JobNumber number) { return mill_.confirm(number, job(number).setup, "unix bert", now_); }
-  Result<void> start(JobNumber number, std::size_t part) {
+  Result<void> confirm(jobs::JobNumber number) { return mill_.confirm(number, job(number).setup, "unix bert", now_); }
+  Result<void> start(jobs::JobNumber number, std::size_t part) {
     return mill_.start(number, prepared(part), {.who = "unix anna"}, now_);
   }
-  void begin(JobNumber number, std::size_t part) {
+  void begin(jobs::JobNumber number, std::size_t part) {
     ASSERT_TRUE(confirm(number));
     ASSERT_TRUE(start(number, part));
   }
@@ -77,7 +77,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
       if (const auto due = mill_.next_deadline(); due && *due <= now_) mill_.advance(now_);
     }
   }
-  void feed(JobNumber number, std::size_t part) {
+  void feed(jobs::JobNumber number, std::size_t part) {
     begin(number, part);
     run_to_end();
   }
@@ -88,22 +88,22 @@ class MillPartsTest : public testing::Test, protected MillEvents {
   }
   static Reason reason(const Result<void>& result) { return result ? Reason::unspecified : result.error().reason; }
 
-  void link_changed(MillLink, std::string_view, TimePoint) override {}
-  void job_changed(const Job& job, std::string_view, std::string_view why, TimePoint) override {
+  void link_changed(jobs::MachineLink, std::string_view, TimePoint) override {}
+  void job_changed(const jobs::Job& job, std::string_view, std::string_view why, TimePoint) override {
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
   }
-  void rank_changed(const Job&) override {}
+  void rank_changed(const jobs::Job&) override {}
   void surface_set(std::uint64_t) override {}
   void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
-  void sender_changed(const RunningJob&, TimePoint) override {}
-  void written(std::string_view, JobNumber) override {}
+  void sender_changed(const jobs::RunningJob&, TimePoint) override {}
+  void written(std::string_view, jobs::JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
-  void about_to_write(JobNumber, const WrittenRange& sent) override { noted_.push_back(sent.most); }
+  void about_to_write(jobs::JobNumber, const jobs::WrittenRange& sent) override { noted_.push_back(sent.most); }
 
   const Profile profile_ = test_profile();
   FakeMillLine line_;
   TimePoint now_{1000s};
-  MillSettings settings_;
+  jobs::MachineSettings settings_;
   std::vector<std::string> said_;
   std::vector<std::uint64_t> noted_;
   FakePermission permission_;
@@ -156,7 +156,7 @@ TEST_F(MillPartsTest, BytesAreThoseOfTheWholeJob) {
 
 TEST_F(MillPartsTest, TheConfirmationIsForTheToolOfThePart) {
   mill_.add(job_in_parts(1), now_);
-  const JobSetup first = job(1).setup;
+  const jobs::JobSetup first = job(1).setup;
   feed(1, 0);
   EXPECT_EQ(reason(mill_.confirm(1, first, "unix bert", now_)), Reason::stale_setpoint) << "T1 is out";
   EXPECT_EQ(job(1).state, tool_change);
@@ -246,7 +246,7 @@ TEST_F(MillPartsTest, ALineThatIsLostInALaterPart) {
 
 TEST_F(MillPartsTest, AnInheritedToolChangeIsConfirmedAndSendsNoAbort) {
   MillController after(profile_, settings_, line_, *this, permission_);
-  Job job = job_in_parts(7);
+  jobs::Job job = job_in_parts(7);
   job.state = tool_change;
   go_to_part(job, 2);
   after.inherit(job);
@@ -262,7 +262,7 @@ TEST_F(MillLeavesTest, WhatAJobHasSetIsSeenBeforeTheNextIsConfirmed) {
   mill_.add(job_that_leaves(1, {.surface = true, .revolutions = true}), now_);
   mill_.add(job_that_leaves(2, {}), now_);
   mill_.add(job_that_leaves(3, {}), now_);
-  JobSetup seen = job(2).setup;
+  jobs::JobSetup seen = job(2).setup;
   EXPECT_THAT(seen.left, IsEmpty());
   feed(1, 0);
   ASSERT_TRUE(mill_.done(1, "unix bert", now_));
@@ -307,7 +307,7 @@ TEST_F(MillLeavesTest, AnAbortedJobMayHaveSetIt) {
 }
 
 TEST_F(MillLeavesTest, BetweenThePartsOfAJobItsToolIsWhatIsConfirmed) {
-  Job first = job_in_parts(1);
+  jobs::Job first = job_in_parts(1);
   first.leaves.surface = true;
   mill_.add(first, now_);
   mill_.add(job_that_leaves(2, {}), now_);
@@ -323,15 +323,15 @@ TEST_F(MillLeavesTest, NoZ0IsLeftWhereAPersonHasSetIt) {
   after.inherit_left(job_that_leaves(6, {.surface = true, .revolutions = true}));
   after.inherit(job_that_leaves(7, {}));
   after.link_up(now_);
-  ASSERT_TRUE(after.operate(SetSurface{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(after.operate(jobs::SetSurface{-800}, {.who = "unix anna"}, now_));
   EXPECT_THAT(after.jobs().front().setup.left, ElementsAre("job 6 (part.rml) sets the spindle speed (!RC)"));
 }
 
 TEST_F(MillLeavesTest, AJobThatContinuesAWorkpieceNeedsItsZ0) {
-  Job next = job_that_leaves(2, {});
+  jobs::Job next = job_that_leaves(2, {});
   next.continues = 1;
   mill_.add(next, now_);
-  ASSERT_TRUE(mill_.operate(SetSurface{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(mill_.operate(jobs::SetSurface{-800}, {.who = "unix anna"}, now_));
   const Result<void> confirmed = confirm(2);
   ASSERT_FALSE(confirmed);
   EXPECT_EQ(confirmed.error().reason, Reason::stale_setpoint);
@@ -348,17 +348,17 @@ TEST_F(MillLeavesTest, OverARestart) {
 
 TEST(JobPlan, IsThatOfItsPartAndCountsThoseBehindIt) {
   using std::chrono::seconds;
-  Job job{.parts = {{"T1", 100, {seconds(1), seconds(2)}, {64, 100, seconds(3), 4}},
-                    {"T2", 200, {seconds(10), seconds(20)}, {128, 100, seconds(3), 4}}}};
-  EXPECT_EQ(takes(job), (TimeRange{seconds(11), seconds(22)}));
+  jobs::Job job{.parts = {{"T1", 100, {seconds(1), seconds(2)}, {64, 100, seconds(3), 4}},
+                          {"T2", 200, {seconds(10), seconds(20)}, {128, 100, seconds(3), 4}}}};
+  EXPECT_EQ(takes(job), (jobs::TimeRange{seconds(11), seconds(22)}));
   EXPECT_EQ(run_on(job)->at_most, 64u);
   go_to_part(job, 1);
-  EXPECT_EQ(takes(job), (TimeRange{seconds(10), seconds(20)}));
+  EXPECT_EQ(takes(job), (jobs::TimeRange{seconds(10), seconds(20)}));
   EXPECT_EQ(run_on(job)->at_most, 128u);
   set_plan(job, {seconds(5), seconds(6)}, {256, 300, seconds(7), 8});
-  EXPECT_EQ(takes(job), (TimeRange{seconds(5), seconds(6)}));
+  EXPECT_EQ(takes(job), (jobs::TimeRange{seconds(5), seconds(6)}));
   EXPECT_EQ(run_on(job)->if_held, 300u);
-  EXPECT_FALSE(run_on(Job{.parts = {{"T1", 100}}})) << "nobody has planned it";
+  EXPECT_FALSE(run_on(jobs::Job{.parts = {{"T1", 100}}})) << "nobody has planned it";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tests of a mill's state machines: every state with every event, typed from the tables in device/rml1/mill/README.md
+// Tests of a mill's state machines: every state with every event, typed from the tables in device/jobs/README.md
 // and device/rml1/sending/README.md, and the effect of an event that a table lacks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/rml1/mill/job_queue.h"
+#include "device/jobs/job_queue.h"
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/mill_controller_fixture.h"
 #include "tests/unit/core/reported.h"
@@ -39,11 +39,11 @@ TEST(JobTable, EachPairLeadsWhereThePageSays) {
       {"CANCELLED", std::vector<std::string>(15, e)},
       {"EXPIRED", std::vector<std::string>(15, e)},
   };
-  const int illegal = illegal_pairs<JobState, JobEvent>(
-      table, kJobStates,
+  const int illegal = illegal_pairs<jobs::JobState, jobs::JobEvent>(
+      table, jobs::kJobStates,
       {"confirm", "void", "void, later part", "void, rest", "start", "raised", "choose rest", "part fed", "fed",
        "aborted", "abort unsure", "lost", "done", "cancel", "expire"},
-      [](JobState state, JobEvent event) { return next(state, event); });
+      [](jobs::JobState state, jobs::JobEvent event) { return next(state, event); });
   EXPECT_EQ(illegal, 142);
 }
 
@@ -74,29 +74,29 @@ TEST(SenderTable, EachPairLeadsWhereThePageSays) {
       {"ABORTED", std::vector<std::string>(9, e)},
       {"LOST", std::vector<std::string>(9, e)},
   };
-  const int illegal = illegal_pairs<SenderState, SendEvent>(
-      table, kSenderStates,
+  const int illegal = illegal_pairs<jobs::SenderState, SendEvent>(
+      table, jobs::kSenderStates,
       {"start", "pause", "resume", "raise", "all_written", "all_executed", "abort", "abort_left", "line_lost"},
-      [](SenderState state, SendEvent event) { return next(state, event); });
+      [](jobs::SenderState state, SendEvent event) { return next(state, event); });
   EXPECT_EQ(illegal, 71);
 }
 
-class Silent : public QueueEvents {
+class Silent : public jobs::QueueEvents {
  public:
-  void job_changed(const Job&, std::string_view, std::string_view, TimePoint) override {}
-  void rank_changed(const Job&) override {}
+  void job_changed(const jobs::Job&, std::string_view, std::string_view, TimePoint) override {}
+  void rank_changed(const jobs::Job&) override {}
 };
 
 TEST(JobQueue, AnIllegalEventIsReportedAndChangesNothing) {
   Reported reported;
   Silent silent;
-  const SetupLeft left;
-  JobQueue queue(left, std::chrono::days(14), silent, reported);
+  const jobs::SetupLeft left;
+  jobs::JobQueue queue(left, std::chrono::days(14), silent, reported);
   const TimePoint now{1000s};
   queue.add({.number = 1, .name = "part.rml"}, now);
-  queue.change(queue.at(1), JobEvent::fed, "", "", now);
+  queue.change(queue.at(1), jobs::JobEvent::fed, "", "", now);
   EXPECT_THAT(reported.all, ElementsAre("job QUEUED fed"));
-  EXPECT_EQ(queue.at(1).state, JobState::queued);
+  EXPECT_EQ(queue.at(1).state, jobs::JobState::queued);
   EXPECT_EQ(queue.broken_invariant(), "");
 }
 
@@ -104,7 +104,7 @@ TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
   Reported reported;
   FakeMillLine line;
   const Profile profile = test_profile();
-  const SendSettings settings;
+  const jobs::SendSettings settings;
   Abort abort(profile, settings, line, reported);
   abort.write(true, TimePoint{1000s});
   abort.postpone();
@@ -116,27 +116,28 @@ TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
 TEST(JobQueue, ItsInvariantsSayWhatDoesNotHold) {
   Reported reported;
   Silent silent;
-  const SetupLeft left;
-  const auto broken = [&](std::vector<Job> jobs) {
-    JobQueue queue(left, std::chrono::days(14), silent, reported);
-    for (Job& job : jobs) {
-      const JobState state = std::exchange(job.state, JobState::queued);
+  const jobs::SetupLeft left;
+  const auto broken = [&](std::vector<jobs::Job> jobs) {
+    jobs::JobQueue queue(left, std::chrono::days(14), silent, reported);
+    for (jobs::Job& job : jobs) {
+      const jobs::JobState state = std::exchange(job.state, jobs::JobState::queued);
       queue.add(job, TimePoint{1000s});
       queue.at(job.number).state = state;
     }
     return queue.broken_invariant();
   };
-  const Confirmation confirmation{"unix bert", TimePoint{2000s}};
-  EXPECT_EQ(broken({{.number = 1, .state = JobState::running}, {.number = 2}}), "");
-  EXPECT_THAT(broken({{.number = 1, .state = JobState::done}}), HasSubstr("has ended, and is in the queue"));
-  EXPECT_THAT(broken({{.number = 1, .state = JobState::confirmed}}), HasSubstr("CONFIRMED and has no confirmation"));
+  const jobs::Confirmation confirmation{"unix bert", TimePoint{2000s}};
+  EXPECT_EQ(broken({{.number = 1, .state = jobs::JobState::running}, {.number = 2}}), "");
+  EXPECT_THAT(broken({{.number = 1, .state = jobs::JobState::done}}), HasSubstr("has ended, and is in the queue"));
+  EXPECT_THAT(broken({{.number = 1, .state = jobs::JobState::confirmed}}),
+              HasSubstr("CONFIRMED and has no confirmation"));
   EXPECT_THAT(broken({{.number = 1, .confirmation = confirmation}}), HasSubstr("QUEUED and has a confirmation"));
-  EXPECT_EQ(broken({{.number = 1, .state = JobState::confirmed, .confirmation = confirmation},
-                    {.number = 2, .state = JobState::confirmed, .confirmation = confirmation}}),
+  EXPECT_EQ(broken({{.number = 1, .state = jobs::JobState::confirmed, .confirmation = confirmation},
+                    {.number = 2, .state = jobs::JobState::confirmed, .confirmation = confirmation}}),
             "two jobs are confirmed");
-  EXPECT_EQ(broken({{.number = 1, .state = JobState::running}, {.number = 2, .state = JobState::running}}),
+  EXPECT_EQ(broken({{.number = 1, .state = jobs::JobState::running}, {.number = 2, .state = jobs::JobState::running}}),
             "two jobs run");
-  EXPECT_THAT(broken({{.number = 1}, {.number = 2, .state = JobState::fed}}), HasSubstr("order of is_before()"));
+  EXPECT_THAT(broken({{.number = 1}, {.number = 2, .state = jobs::JobState::fed}}), HasSubstr("order of is_before()"));
 }
 
 // An internal error leaves the mill's activity unknown.
@@ -160,7 +161,7 @@ TEST_F(InternalErrorAtAMill, AbortsTheJobAndOpensTheLineAgain) {
   EXPECT_LE(*mill_.next_deadline(), now_) << "at once";
   mill_.advance(now_);
   EXPECT_THAT(errors_, ElementsAre("an internal error: job in state QUEUED cannot have the event fed"));
-  EXPECT_EQ(state(1), JobState::paused_unknown);
+  EXPECT_EQ(state(1), jobs::JobState::paused_unknown);
   EXPECT_EQ(mill_.running_job(), 0u);
   EXPECT_EQ(line_.reopened, 1);
   EXPECT_EQ(written(), "") << "it would be lost with the line";
@@ -187,7 +188,7 @@ TEST_F(InternalErrorAtAMill, WithoutAJobTheMillIsAbortedToo) {
   mill_.advance(now_);
   mill_.link_up(now_);
   EXPECT_EQ(written(), abort_words(profile_, true));
-  EXPECT_EQ(reason(mill_.operate(JogStep{.x_mm = 1}, {.who = "unix anna"}, now_).map([](Duration) {})),
+  EXPECT_EQ(reason(mill_.operate(jobs::JogStep{.x_mm = 1}, {.who = "unix anna"}, now_).map([](Duration) {})),
             Reason::axis_busy)
       << "the tool may still rise";
 }

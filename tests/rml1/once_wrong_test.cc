@@ -62,8 +62,8 @@ TEST(OnceWrong, SpinUpDidNotWaitForItsCommand) {
 
 // The origin is 10 mm left of the home corner: both tool and commanded place begin at the corner.
 TEST(OnceWrong, AnOriginOutsideMovedNothing) {
-  EXPECT_EQ(text(play("!ZEY100;", test_profile(), Origin{-10, 5, 50}).final), "1000 100 5000");
-  EXPECT_EQ(text(play("PD;", test_profile(), Origin{-10, 5, 50}).final), "1000 0 -100");
+  EXPECT_EQ(text(play("!ZEY100;", test_profile(), jobs::Origin{-10, 5, 50}).final), "1000 100 5000");
+  EXPECT_EQ(text(play("PD;", test_profile(), jobs::Origin{-10, 5, 50}).final), "1000 0 -100");
 }
 
 TEST(OnceWrong, GCodeDependedOnTheSplit) {
@@ -138,7 +138,7 @@ TEST(OnceWrong, ARelativeSurfaceWithoutAnOriginHadNoEnd) {
 // The top is 493.2 steps above Z0.
 TEST(OnceWrong, TheTopWasRoundedDown) {
   const Profile profile = test_profile();
-  const Origin origin{10, 10, 493.2 * profile.step_mm};
+  const jobs::Origin origin{10, 10, 493.2 * profile.step_mm};
   EXPECT_THAT(play("PU;", profile, origin).moves, IsEmpty());
   EXPECT_THAT(play("!ZM0;", profile, origin).moves, IsEmpty());
   EXPECT_NEAR(play("!ZM-10;", profile, origin).final.z, 483.2, 1e-9);
@@ -147,7 +147,7 @@ TEST(OnceWrong, TheTopWasRoundedDown) {
 // PD alone drills a hole. Z0 lies 10 steps above the bottom.
 TEST(OnceWrong, AHoleBelowTheBottomWasSilent) {
   const Profile profile = test_profile();
-  const Origin origin{10, 10, profile.z_mm - 10 * profile.step_mm};
+  const jobs::Origin origin{10, 10, profile.z_mm - 10 * profile.step_mm};
   const auto check = checked("!PZ-5,9;PD;PU;!PZ-11,9;", profile, {origin, {}, {}});
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre(testing::HasSubstr("error 3")));
   EXPECT_THAT(told(checked("!PZ-5;!ZO-6047;PD;PU;", profile, {origin, {}, {}})->diagnostics().kept()),
@@ -169,7 +169,7 @@ TEST(OnceWrong, ALiftOutsideWentToTheNearestEdge) {
   Profile profile = test_profile();
   profile.holds_flat_commands = true;
   profile.x_mm = 4;
-  const Played found = play("Z500,100,-10;PU;", profile, Origin{1, 1, 0.5});
+  const Played found = play("Z500,100,-10;PU;", profile, jobs::Origin{1, 1, 0.5});
   EXPECT_EQ(text(found.final), "300 60 14");
 }
 
@@ -177,7 +177,7 @@ TEST(OnceWrong, ALiftOutsideWentToTheNearestEdge) {
 TEST(OnceWrong, AHeightWhoseStepIsReachedWasAnError) {
   Profile profile = test_profile();
   profile.z_mm = 2;
-  const Played found = play("PA;Z0,0,-100;PR;!ZM-50;", profile, Origin{1, 1, 0.504});
+  const Played found = play("PA;Z0,0,-100;PR;!ZM-50;", profile, jobs::Origin{1, 1, 0.504});
   EXPECT_THAT(found.diagnostics, IsEmpty());
 }
 
@@ -188,7 +188,7 @@ TEST(OnceWrong, ANameBehindACircumflexWasToldInPart) {
 
 // The range goes from the top, 5000 or 6050 steps above Z0, down to Z2.
 TEST(OnceWrong, TheUpperBoundDependedOnTheOrigin) {
-  for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
+  for (const auto& origin : {std::optional<jobs::Origin>(), std::optional<jobs::Origin>(kMidway)}) {
     EXPECT_EQ(to_string(checked("@-9,200;PU0,0;PD9,9;PU;", test_profile(), {origin, {}, {}})->summary().bounds.z),
               "-9 to 200");
   }
@@ -196,8 +196,8 @@ TEST(OnceWrong, TheUpperBoundDependedOnTheOrigin) {
 
 // A speed limited by an axis equals the limit except for the last digits.
 TEST(OnceWrong, OneSpeedWasShownAsARange) {
-  EXPECT_EQ(to_string(Reach{true, 15, 15.000000000001}), "15");
-  EXPECT_EQ(to_string(Reach{true, 2, 15}), "2 to 15");
+  EXPECT_EQ(to_string(jobs::Reach{true, 15, 15.000000000001}), "15");
+  EXPECT_EQ(to_string(jobs::Reach{true, 2, 15}), "2 to 15");
 }
 
 }  // namespace

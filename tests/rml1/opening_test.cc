@@ -77,7 +77,7 @@ TEST(ByteOrderMark, IsOneError) {
   const auto check = checked("\xEF\xBB\xBF@-9,9;PD;PU;\nQ;", test_profile());
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("error 1 at 0", "error 1 at 16"));
   EXPECT_THAT(check->diagnostics().kept()[0].text, HasSubstr("byte order mark"));
-  EXPECT_EQ(check->diagnostics().kept()[1].place, (Place{16, 2, 1}));
+  EXPECT_EQ(check->diagnostics().kept()[1].place, (jobs::Place{16, 2, 1}));
   EXPECT_EQ(check->summary().commands, 3u);
 }
 
@@ -97,7 +97,7 @@ TEST(GCode, IsRefusedWithoutAnythingElse) {
     const auto check = checked(job, test_profile());
     EXPECT_TRUE(check->is_other_file()) << job;
     EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("error 0 at 2")) << job;
-    EXPECT_EQ(check->diagnostics().kept()[0].place, (Place{2, 2, 2})) << job;
+    EXPECT_EQ(check->diagnostics().kept()[0].place, (jobs::Place{2, 2, 2})) << job;
     EXPECT_EQ(check->summary().commands, 0u) << job;
   }
 }
@@ -105,7 +105,7 @@ TEST(GCode, IsRefusedWithoutAnythingElse) {
 TEST(GCode, IsToldBehindCommentsAndWordsOfBoth) {
   struct Case {
     const char* job;
-    Place place;
+    jobs::Place place;
   };
   for (const auto& [job, place] : {Case{"; made by a program: PU, PD\n;\nG21\n", {30, 3, 1}},
                                    {"T1 M6\r\nS1000M3 ; on\r\nG0 X1\r\n", {21, 3, 1}},

@@ -20,27 +20,27 @@ using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using enum JobState;
-using Numbers = std::vector<JobNumber>;
+using enum jobs::JobState;
+using Numbers = std::vector<jobs::JobNumber>;
 
 class MillQueueOrder : public MillControllerTest {
  protected:
   static Numbers order_of(const MillController& mill) {
     Numbers numbers;
-    for (const Job& job : mill.jobs()) numbers.push_back(job.number);
+    for (const jobs::Job& job : mill.jobs()) numbers.push_back(job.number);
     return numbers;
   }
   Numbers order() const { return order_of(mill_); }
-  Result<void> first(JobNumber number, Overtaken overtaken = Overtaken::all) {
+  Result<void> first(jobs::JobNumber number, jobs::Overtaken overtaken = jobs::Overtaken::all) {
     return mill_.move_first(number, overtaken, "unix root", now_);
   }
   // Returns the order in the next run of the daemon, from the stored facts of each job. These include neither its place
   // nor its confirmation.
   Numbers order_after_restart(std::uint64_t seed = 0) {
-    std::vector<Job> jobs = mill_.jobs();
+    std::vector<jobs::Job> jobs = mill_.jobs();
     std::shuffle(jobs.begin(), jobs.end(), std::mt19937_64(seed));
     MillController after(profile_, settings_, line_, *this, permission_);
-    for (Job job : jobs) {
+    for (jobs::Job job : jobs) {
       job.rank = ranks_.contains(job.number) ? ranks_.at(job.number) : 0;
       if (job.state == confirmed) job.state = job.part == 0 ? queued : tool_change;
       after.inherit(std::move(job));
@@ -50,7 +50,7 @@ class MillQueueOrder : public MillControllerTest {
 };
 
 TEST_F(MillQueueOrder, AnAdministratorMovesAJobBeforeAllThatAreQueued) {
-  for (const JobNumber number : {1, 2, 3, 4}) add(number, number % 2 == 0 ? "unix anna" : "unix bert");
+  for (const jobs::JobNumber number : {1, 2, 3, 4}) add(number, number % 2 == 0 ? "unix anna" : "unix bert");
   ASSERT_TRUE(first(3));
   EXPECT_THAT(order(), ElementsAre(3, 1, 2, 4));
   EXPECT_EQ(said_.back(), "QUEUED: moved to the front of the queue");
@@ -62,8 +62,9 @@ TEST_F(MillQueueOrder, AnAdministratorMovesAJobBeforeAllThatAreQueued) {
 }
 
 TEST_F(MillQueueOrder, TheJobsOfOthersKeepTheirPlaces) {
-  for (const JobNumber number : {1, 2, 3, 4, 5}) add(number, number == 1 || number == 3 ? "unix bert" : "unix anna");
-  ASSERT_TRUE(first(5, Overtaken::of_its_owner));
+  for (const jobs::JobNumber number : {1, 2, 3, 4, 5})
+    add(number, number == 1 || number == 3 ? "unix bert" : "unix anna");
+  ASSERT_TRUE(first(5, jobs::Overtaken::of_its_owner));
   EXPECT_THAT(order(), ElementsAre(1, 5, 3, 2, 4));
   EXPECT_EQ(said_.back(), "QUEUED: moved before the other jobs of its owner");
   EXPECT_THAT(order_after_restart(), ElementsAre(1, 5, 3, 2, 4));
@@ -74,14 +75,14 @@ TEST_F(MillQueueOrder, WhereItIsTheFirstNothingHappens) {
   add(2);
   said_.clear();
   EXPECT_TRUE(first(1));
-  EXPECT_TRUE(first(2, Overtaken::of_its_owner));
+  EXPECT_TRUE(first(2, jobs::Overtaken::of_its_owner));
   EXPECT_THAT(order(), ElementsAre(1, 2));
   EXPECT_THAT(said_, IsEmpty());
   EXPECT_THAT(ranks_, IsEmpty());
 }
 
 TEST_F(MillQueueOrder, AConfirmedJobIsNeitherMovedNorOvertaken) {
-  for (const JobNumber number : {1, 2, 3}) add(number);
+  for (const jobs::JobNumber number : {1, 2, 3}) add(number);
   ASSERT_TRUE(confirm(1));
   ASSERT_TRUE(first(3));
   EXPECT_THAT(order(), ElementsAre(1, 3, 2));
@@ -114,7 +115,7 @@ TEST_F(MillQueueOrder, WhatWasBegunIsNeitherMovedNorOvertaken) {
 
 // The next run knows the job's rank only if the daemon was not killed before it was stored.
 TEST_F(MillQueueOrder, WhatWasBegunIsBeforeTheOthersWhateverItsRank) {
-  for (const JobState begun : {tool_change, fed, paused_unknown}) {
+  for (const jobs::JobState begun : {tool_change, fed, paused_unknown}) {
     MillController after(profile_, settings_, line_, *this, permission_);
     after.inherit({.number = 1, .name = "part.rml", .owner = "unix anna", .rank = -7});
     after.inherit({.number = 3, .name = "part.rml", .owner = "unix anna", .state = begun});
@@ -135,8 +136,8 @@ TEST_F(MillQueueOrder, WhatIsLeftIsShownToWhoConfirmsTheNewFirst) {
 }
 
 TEST_F(MillQueueOrder, WhatIsSentLaterIsBehindAllThatWereMoved) {
-  for (const JobNumber number : {1, 2, 3}) add(number);
-  for (const JobNumber number : {2, 3, 1, 3}) ASSERT_TRUE(first(number));
+  for (const jobs::JobNumber number : {1, 2, 3}) add(number);
+  for (const jobs::JobNumber number : {2, 3, 1, 3}) ASSERT_TRUE(first(number));
   add(4);
   EXPECT_THAT(order(), ElementsAre(3, 1, 2, 4));
   EXPECT_THAT(order_after_restart(), ElementsAre(3, 1, 2, 4));
@@ -204,10 +205,10 @@ class RandomMillQueue : public MillQueueOrder {
   void run(std::uint64_t seed) {
     SCOPED_TRACE(fmt::format("replay with AXISGATE_SEED={}", seed));
     random_.seed(seed);
-    JobNumber last = 0;
+    jobs::JobNumber last = 0;
     for (int step = 0; step < 40 && !HasFailure(); ++step) {
-      const std::vector<Job>& jobs = mill_.jobs();
-      const JobNumber any = jobs.empty() ? 0 : jobs[draw(jobs.size())].number;
+      const std::vector<jobs::Job>& jobs = mill_.jobs();
+      const jobs::JobNumber any = jobs.empty() ? 0 : jobs[draw(jobs.size())].number;
       const std::size_t act = draw(8);
       if (act < 3 || jobs.size() < 3) {
         add(++last, draw(2) == 0 ? "unix anna" : "unix bert");
@@ -226,19 +227,21 @@ class RandomMillQueue : public MillQueueOrder {
 
  private:
   std::size_t draw(std::size_t below) { return std::uniform_int_distribution<std::size_t>(0, below - 1)(random_); }
-  void move(JobNumber number) {
-    const std::vector<Job> before = mill_.jobs();
-    const Job& moved = *std::ranges::find(before, number, &Job::number);
+  void move(jobs::JobNumber number) {
+    const std::vector<jobs::Job> before = mill_.jobs();
+    const jobs::Job& moved = *std::ranges::find(before, number, &jobs::Job::number);
     const bool all = draw(2) == 0;
-    const Result<void> done = first(number, all ? Overtaken::all : Overtaken::of_its_owner);
+    const Result<void> done = first(number, all ? jobs::Overtaken::all : jobs::Overtaken::of_its_owner);
     ASSERT_EQ(done.has_value(), moved.state == queued);
-    const auto takes_part = [&](const Job& job) { return job.state == queued && (all || job.owner == moved.owner); };
+    const auto takes_part = [&](const jobs::Job& job) {
+      return job.state == queued && (all || job.owner == moved.owner);
+    };
     Numbers those{number}, expected;
-    for (const Job& job : before) {
+    for (const jobs::Job& job : before) {
       if (takes_part(job) && job.number != number) those.push_back(job.number);
     }
     auto next = those.begin();
-    for (const Job& job : before) expected.push_back(done && takes_part(job) ? *next++ : job.number);
+    for (const jobs::Job& job : before) expected.push_back(done && takes_part(job) ? *next++ : job.number);
     EXPECT_EQ(order(), expected) << "job " << number << (all ? " before all" : " before those of its owner");
   }
 

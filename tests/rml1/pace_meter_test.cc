@@ -80,13 +80,13 @@ TEST_F(PaceMeterTest, NoTimeIsCountedInWhichTheMillMayHaveWaitedForBytes) {
 }
 
 TEST(PaceMeterSlack, IsATenthMoreThanWasMeasuredAndAtLeastOne) {
-  const SendSettings as_measured{.slack_as_measured = true};
+  const jobs::SendSettings as_measured{.slack_as_measured = true};
   EXPECT_EQ(with_pace(as_measured, std::nullopt).slack, 1.5);
-  EXPECT_DOUBLE_EQ(with_pace(as_measured, MeasuredPace{1.1, 1.2}).slack, 1.32);
-  EXPECT_DOUBLE_EQ(with_pace(as_measured, MeasuredPace{1.4, 1.6}).slack, 1.76)
+  EXPECT_DOUBLE_EQ(with_pace(as_measured, jobs::MeasuredPace{1.1, 1.2}).slack, 1.32);
+  EXPECT_DOUBLE_EQ(with_pace(as_measured, jobs::MeasuredPace{1.4, 1.6}).slack, 1.76)
       << "a mill that is slower than the default has it";
-  EXPECT_EQ(with_pace(as_measured, MeasuredPace{0.5, 0.6}).slack, 1);
-  EXPECT_EQ(with_pace({.slack = 1.4}, MeasuredPace{1, 1.1}).slack, 1.4) << "as it is configured";
+  EXPECT_EQ(with_pace(as_measured, jobs::MeasuredPace{0.5, 0.6}).slack, 1);
+  EXPECT_EQ(with_pace({.slack = 1.4}, jobs::MeasuredPace{1, 1.1}).slack, 1.4) << "as it is configured";
 }
 
 // Returns a mill that is slower than the high end of the profile by `percent`.
@@ -109,7 +109,7 @@ void PrintTo(const Measured& one, std::ostream* out) {
 
 class MeasuredMill : public testing::TestWithParam<Measured> {
  protected:
-  std::optional<MeasuredPace> pace_of(const std::string& job) const {
+  std::optional<jobs::MeasuredPace> pace_of(const std::string& job) const {
     const auto [flow, converter, percent] = GetParam();
     return measured_by(job, slower_mill(percent, flow), {.buffer = 512, .converter = converter},
                        {.shows_cts = flow == Flow::rts, .converter = converter});
@@ -147,12 +147,12 @@ TEST(MeasuredMill, PacedStreamingNeverShowsThePace) {
   const Timeline timeline(job, test_profile(), kMidway);
   AbortBench bench(job, timeline, slower_mill(20, Flow::rts), {.converter = 0}, {.shows_cts = true});
   bench.finish();
-  EXPECT_EQ(bench.sender().state(), SenderState::fed);
+  EXPECT_EQ(bench.sender().state(), jobs::SenderState::fed);
   EXPECT_FALSE(bench.sender().measured_pace());
 }
 
 // Returns the time that the mill takes with `paced` streaming.
-double paced_seconds(const std::string& job, const simulator::MillSetup& mill, SendSettings settings) {
+double paced_seconds(const std::string& job, const simulator::MillSetup& mill, jobs::SendSettings settings) {
   simulator::MillSetup setup = mill;
   setup.profile = test_profile();
   const Timeline timeline(job, setup.profile, kAtHome);
@@ -176,7 +176,7 @@ TEST(MeasuredMill, APacedJobAfterItTakesLess) {
 
 class KeptPace : public MillControllerTest {
  protected:
-  KeptPace() { settings_.sending = {.streaming = Streaming::full, .buffer = 16, .converter = 0}; }
+  KeptPace() { settings_.sending = {.streaming = jobs::Streaming::full, .buffer = 16, .converter = 0}; }
 
   void run_on(MillController& mill, Duration time) {
     for (const TimePoint end = now_ + time; now_ < end; now_ += std::chrono::milliseconds(1)) {
@@ -186,7 +186,7 @@ class KeptPace : public MillControllerTest {
   }
 
   // Runs the job to FED. The mill takes no bytes for a minute after 300 bytes, and again after 1500.
-  void run_to_fed(MillController& mill, JobNumber number, int count) {
+  void run_to_fed(MillController& mill, jobs::JobNumber number, int count) {
     mill.add({.number = number, .name = "part.rml", .owner = "unix anna", .setup = setup()}, now_);
     ASSERT_TRUE(mill.confirm(number, setup(), "unix bert", now_));
     ASSERT_TRUE(mill.start(number, prepared(count), {.who = "unix anna"}, now_));

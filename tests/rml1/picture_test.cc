@@ -26,7 +26,7 @@ using testing::StartsWith;
 // A picture with the given title of two cut lines, 10 and 20 mm long.
 class Drawn {
  public:
-  explicit Drawn(const std::string& title, const PlaceRange& executed = {}) : strokes_(executed) {
+  explicit Drawn(const std::string& title, const jobs::PlaceRange& executed = {}) : strokes_(executed) {
     check_.feed("PU1000,1000;PD2000,1000;\nPD2000,3000;PU;");
     check_.finish();
     picture_.emplace(make_picture(title, {&check_}, profile_, {}, true, strokes_));
@@ -36,7 +36,7 @@ class Drawn {
  private:
   const Profile profile_ = test_profile();
   Strokes strokes_;
-  Check check_{profile_, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes_};
+  Check check_{profile_, {.origin = jobs::Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes_};
   std::optional<Picture> picture_;
 };
 
@@ -89,7 +89,7 @@ TEST(WhatRemains, OfARangeIsPerhapsDone) {
 TEST(WhatRemains, OfAListOfCoordinates) {
   const Profile profile = test_profile();
   Strokes strokes({{0, 1, 13}, {0, 1, 13}});
-  Check check(profile, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
+  Check check(profile, {.origin = jobs::Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
   check.feed("PA;PD100,200,300,400;");
   check.finish();
   ASSERT_FALSE(strokes.all().empty());

@@ -13,9 +13,9 @@ namespace {
 void expect_each_place(const std::string& text) {
   const PlaceIndex index(text);
   for (std::size_t offset = 0; offset <= text.size(); ++offset) {
-    ASSERT_EQ(index.at(offset), place_of(text, offset)) << offset;
+    ASSERT_EQ(index.at(offset), jobs::place_of(text, offset)) << offset;
   }
-  EXPECT_EQ(index.at(text.size() + 1), place_of(text, text.size()));
+  EXPECT_EQ(index.at(text.size() + 1), jobs::place_of(text, text.size()));
 }
 
 TEST(APlaceIndex, HasEachPlace) {
@@ -30,8 +30,8 @@ TEST(APlaceIndex, HasEachPlace) {
 TEST(APlaceIndex, OfOneLongLine) {
   const std::string text(10'000, ';');
   const PlaceIndex index(text);
-  EXPECT_EQ(index.at(9'999), (Place{9'999, 1, 10'000}));
-  EXPECT_EQ(index.at(4'096), (Place{4'096, 1, 4'097}));
+  EXPECT_EQ(index.at(9'999), (jobs::Place{9'999, 1, 10'000}));
+  EXPECT_EQ(index.at(4'096), (jobs::Place{4'096, 1, 4'097}));
 }
 
 }  // namespace

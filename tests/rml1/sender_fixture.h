@@ -23,7 +23,7 @@ class SenderTest : public testing::Test {
     for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
     return job;
   }
-  void begin(const std::string& job, SendSettings settings = {}) {
+  void begin(const std::string& job, jobs::SendSettings settings = {}) {
     job_ = job;
     timeline_.emplace(job_, profile_, std::nullopt);
     sender_.emplace(job_, *timeline_, profile_, settings, plan_of(job_, *timeline_, settings), beside_.mill());
@@ -36,7 +36,7 @@ class SenderTest : public testing::Test {
     }
   }
   void TearDown() override { EXPECT_EQ(beside_.reported.all, std::vector<std::string>()); }
-  SendProgress progress() { return sender_->progress(now_); }
+  jobs::SendProgress progress() { return sender_->progress(now_); }
   std::string written() const {
     std::string all;
     for (const std::string& one : line_.writes) all += one;

@@ -10,7 +10,7 @@ namespace axisgate::rml1 {
 class SenderLine {
  public:
   // The profile and the line must outlive this object.
-  SenderLine(const Profile& profile, const SendSettings& settings, FlowLink& line)
+  SenderLine(const Profile& profile, const jobs::SendSettings& settings, FlowLink& line)
       : settings_(settings), line_(line), abort_(profile, settings_, line, reported) {}
 
   MillLine mill() { return {line_, abort_, reported}; }
@@ -18,7 +18,7 @@ class SenderLine {
   Reported reported;  // must stay empty
 
  private:
-  const SendSettings settings_;
+  const jobs::SendSettings settings_;
   FlowLink& line_;
   Abort abort_;
 };

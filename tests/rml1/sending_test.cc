@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
-using enum SenderState;
+using enum jobs::SenderState;
 
 // Typed by hand from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
 TEST(Words, OfAnAbort) {
@@ -80,7 +80,7 @@ TEST_F(SenderTest, PacedCountsTheTimeThatBytesNeedOnTheLine) {
 }
 
 TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
-  begin(vectors(200), {.streaming = Streaming::full});
+  begin(vectors(200), {.streaming = jobs::Streaming::full});
   run_for(std::chrono::seconds(3));
   EXPECT_EQ(sender_->state(), finishing);
   EXPECT_EQ(line_.received, job_);
@@ -89,7 +89,7 @@ TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
 // A pseudo-terminal, a serial server or a printer device behaves like this line: its queue is not visible.
 TEST_F(SenderTest, FullDoesNotWaitForTheMillWhereTheLineHasTakenAll) {
   line_ = FakeMillLine(10'000'000);
-  begin(vectors(200), {.streaming = Streaming::full});
+  begin(vectors(200), {.streaming = jobs::Streaming::full});
   for (int calls = 0; calls < 1000 && sender_->state() == sending; ++calls) {
     line_.run_to(now_);
     ASSERT_LE(sender_->next_deadline(now_).value(), now_ + milliseconds(1)) << "it waits";
@@ -100,7 +100,7 @@ TEST_F(SenderTest, FullDoesNotWaitForTheMillWhereTheLineHasTakenAll) {
 
 TEST_F(SenderTest, WhileTheLineIsHeldOneCommandWaitsAtMost) {
   line_.busy = true;
-  begin(vectors(20), {.streaming = Streaming::full});
+  begin(vectors(20), {.streaming = jobs::Streaming::full});
   run_for(std::chrono::seconds(1));
   EXPECT_THAT(line_.writes, IsEmpty());
   line_.busy = false;
@@ -168,7 +168,7 @@ TEST_F(SenderTest, OneThatRestsInADwellIsStoppedBefore) {
 }
 
 TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
-  begin(vectors(200), {.streaming = Streaming::full});
+  begin(vectors(200), {.streaming = jobs::Streaming::full});
   run_for(milliseconds(100));
   line_.busy = true;
   sender_->abort(now_);
@@ -183,7 +183,7 @@ TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
 
 // CTS became low before the last command had left the host.
 TEST_F(SenderTest, WhatHasNotLeftTheHostIsNotFed) {
-  begin(vectors(2), {.streaming = Streaming::full});
+  begin(vectors(2), {.streaming = jobs::Streaming::full});
   run_for(milliseconds(20));
   while (sender_->state() == sending) run_for(milliseconds(1));
   ASSERT_EQ(sender_->state(), finishing);
@@ -198,7 +198,7 @@ TEST_F(SenderTest, WhatHasNotLeftTheHostIsNotFed) {
 
 // While CTS is low a mill has not executed everything: its buffer is full, or it is off.
 TEST_F(SenderTest, WhileTheLineIsHeldNothingIsFed) {
-  begin(vectors(2), {.streaming = Streaming::full});
+  begin(vectors(2), {.streaming = jobs::Streaming::full});
   while (sender_->state() == sending || line_.unsent() > 0) run_for(milliseconds(1));
   line_.busy = true;
   run_for(std::chrono::seconds(60));
@@ -236,7 +236,7 @@ TEST_F(SenderTest, ALostLineIsAnEndOfWhichNothingIsKnown) {
 
 // Typed by hand from README.md's table: the effect of each call in each state. All other calls have no effect.
 TEST_F(SenderTest, TheTableOfStates) {
-  const auto in = [this](SenderState state) {
+  const auto in = [this](jobs::SenderState state) {
     line_ = FakeMillLine();
     begin(vectors(4), {.slack = 1});
     switch (state) {
@@ -270,15 +270,16 @@ TEST_F(SenderTest, TheTableOfStates) {
         run_for(std::chrono::seconds(60));
         break;
       case ready:
-        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, plan_of(job_, *timeline_, {}), beside_.mill());
+        sender_.emplace(job_, *timeline_, profile_, jobs::SendSettings{}, plan_of(job_, *timeline_, {}),
+                        beside_.mill());
     }
     ASSERT_EQ(sender_->state(), state);
   };
   const std::array kCalls = {&Sender::start, &Sender::pause,     &Sender::resume,
                              &Sender::abort, &Sender::line_lost, &Sender::raise};
   struct Line {
-    SenderState from;
-    std::array<SenderState, 6> to;
+    jobs::SenderState from;
+    std::array<jobs::SenderState, 6> to;
   };
   const Line kTable[] = {
       {ready, {sending, ready, ready, ready, lost, ready}},

@@ -37,7 +37,7 @@ struct Sent {
   double seconds = 0, ended_s = 0;
 };
 
-std::uint64_t not_executed(const FedMill& line, const SendProgress& progress) {
+std::uint64_t not_executed(const FedMill& line, const jobs::SendProgress& progress) {
   return progress.written - std::min(progress.written, line.executed());
 }
 
@@ -49,7 +49,7 @@ simulator::MillSetup mill_of(const Pair& pair) {
   return setup;
 }
 
-Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Duration period = seconds(1)) {
+Sent sent(const std::string& job, const Pair& pair, jobs::SendSettings settings, Duration period = seconds(1)) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, mill_of(pair), settings.baud);
   SenderLine beside(pair.profile, settings, line);
@@ -57,7 +57,7 @@ Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Durat
   Sent found;
   found.at_most = sender.run_on().at_most;
   feed_all(sender, line, period, [&](TimePoint now) {
-    const SendProgress progress = sender.progress(now);
+    const jobs::SendProgress progress = sender.progress(now);
     ++found.looks;
     found.ahead = std::max(found.ahead, not_executed(line, progress));
     found.width = std::max(found.width, progress.executed_most - progress.executed_least);
@@ -79,7 +79,7 @@ struct Paused {
              0;  // longest time from a pause until everything written is executed; the time shown before the start
 };
 
-Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
+Paused paused(const std::string& job, const Pair& pair, jobs::SendSettings settings) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, mill_of(pair), settings.baud);
   SenderLine beside(pair.profile, settings, line);
@@ -99,7 +99,7 @@ Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
     if (now < next_pause) continue;
     next_pause = now + between;
     sender.pause(now);
-    if (sender.state() != SenderState::paused) continue;
+    if (sender.state() != jobs::SenderState::paused) continue;
     const TimePoint since = now;
     while (line.executed() < sender.progress(now).written && now - since < kForever) run_to(now + milliseconds(1));
     ++found.pauses;
@@ -114,7 +114,7 @@ class SentJob : public testing::TestWithParam<Pair> {};
 
 TEST_P(SentJob, TheTruthIsWithinTheRangeAtEverySecond) {
   for (const std::string& job : {uniform_vectors(3000), bursts_of_vectors(3000)}) {
-    for (const Streaming streaming : {Streaming::paced, Streaming::full}) {
+    for (const jobs::Streaming streaming : {jobs::Streaming::paced, jobs::Streaming::full}) {
       const Sent found = sent(job, GetParam(), {.streaming = streaming});
       EXPECT_GE(found.looks, 60);
       EXPECT_EQ(found.outside, 0) << found.first_outside;
@@ -125,7 +125,7 @@ TEST_P(SentJob, TheTruthIsWithinTheRangeAtEverySecond) {
 // Bytes that the line accepts are in the mill's buffer or a converter, or have been read: at most two more commands are
 // in the host or in progress.
 TEST_P(SentJob, FullStreamingKnowsTheTruthToABuffer) {
-  const SendSettings settings{.streaming = Streaming::full, .flow_control = true};
+  const jobs::SendSettings settings{.streaming = jobs::Streaming::full, .flow_control = true};
   for (const std::string& job : {uniform_vectors(3000), bursts_of_vectors(3000)}) {
     const Sent found = sent(job, GetParam(), settings);
     EXPECT_LE(found.width, settings.buffer + settings.converter + 36);
@@ -145,7 +145,7 @@ TEST_P(SentJob, NoMoreIsAheadThanWasShownBeforeTheStart) {
 // Pauses at about twenty places of the job.
 TEST_P(SentJob, APauseEndsWithinTheTimeThatWasShown) {
   for (const std::string& job : {uniform_vectors(500), bursts_of_vectors(500)}) {
-    for (const Streaming streaming : {Streaming::paced, Streaming::full}) {
+    for (const jobs::Streaming streaming : {jobs::Streaming::paced, jobs::Streaming::full}) {
       const Paused found = paused(job, GetParam(), {.streaming = streaming});
       EXPECT_GE(found.pauses, 2);
       EXPECT_LE(found.longest_s, found.shown_s);
@@ -161,7 +161,7 @@ TEST_P(SentJob, ALargerWindowLosesNoMore) {
       EXPECT_LE(now, before * 1.001) << window;
       before = now;
     }
-    EXPECT_LE(sent(job, GetParam(), {.streaming = Streaming::full}).seconds, before * 1.001);
+    EXPECT_LE(sent(job, GetParam(), {.streaming = jobs::Streaming::full}).seconds, before * 1.001);
   }
 }
 
@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(OfAMill, SentJob,
 TEST(AdaptedWindow, LosesNothingWhereASmallOneLoses) {
   const Pair measured{"measured", measured_profile(), "none", 0};
   const std::string job = bursts_of_vectors(2000);
-  const double full = sent(job, measured, {.streaming = Streaming::full}).seconds;
+  const double full = sent(job, measured, {.streaming = jobs::Streaming::full}).seconds;
   const auto part = [&](std::size_t window) {
     return sent(job, measured, {.window = window, .slack = 1}).seconds / full;
   };
@@ -208,7 +208,8 @@ TEST(AdaptedWindow, IsTheBoundThatIsShown) {
 // If a move is shorter than its bytes on the line, the line determines the time: ten bits per byte.
 TEST(SentJob, TheLineDoesNotRestBetweenCommands) {
   const std::string job = vectors(1000, [](int) { return 8; });
-  const double found = sent(job, {"measured", measured_profile(), "none", 0}, {.streaming = Streaming::full}).seconds;
+  const double found =
+      sent(job, {"measured", measured_profile(), "none", 0}, {.streaming = jobs::Streaming::full}).seconds;
   EXPECT_LT(found, static_cast<double>(job.size()) * 10 / 9600 * 1.005 + 14.2) << "14.2 s to the first point";
 }
 

@@ -95,7 +95,7 @@ bool compare(const std::string& job, const Profile& profile) {
   if (is_refused(job, profile)) return false;
   simulator::MillSetup setup = simulator::with_options({{"acceleration", "none"}});
   setup.profile = profile;
-  const PreparedJob sent(job, "d", profile, kWork, SendSettings());
+  const PreparedJob sent(job, "d", profile, kWork, jobs::SendSettings());
   const Course played = course_of_model(job, profile), driven = course_of_mill(sent.text(), setup);
   EXPECT_GE(driven.events.size(), played.events.size()) << job;
   if (driven.events.size() < played.events.size()) return true;
@@ -151,13 +151,13 @@ TEST(SentPath, OfAnOpenGroupIsNotDriven) {
   EXPECT_TRUE(compare("^IN;PU100,100;!ZEX500", profile));
   EXPECT_TRUE(compare("^IN;PU100,100;!ZE X300:Y200", profile));
   EXPECT_TRUE(compare("PU100,100;^!ZEX500", profile));
-  const PreparedJob sent("PU100,100;!ZEX500", "d", profile, kWork, SendSettings());
+  const PreparedJob sent("PU100,100;!ZEX500", "d", profile, kWork, jobs::SendSettings());
   EXPECT_EQ(sent.text().find("ZE"), std::string::npos) << sent.text();
 }
 
 // Otherwise a job could be paused and raised after its end, and would have a rest without a command.
 TEST(SentPath, TheWholePartCountsAsSentWithoutItsOpenEnd) {
-  const PreparedJob sent("PU100,100;!ZEX500", "d", test_profile(), kWork, SendSettings());
+  const PreparedJob sent("PU100,100;!ZEX500", "d", test_profile(), kWork, jobs::SendSettings());
   EXPECT_EQ(sent.of_body(sent.text().size()), 17U);
   EXPECT_EQ(sent.of_body(sent.text().find(";^DF") + 4), 0U);
 }

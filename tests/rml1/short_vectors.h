@@ -11,7 +11,7 @@
 namespace axisgate::rml1 {
 
 // Work origin at the place where the simulator begins, so that nothing is clipped.
-inline constexpr Origin kAtHome{0, 0, 0};
+inline constexpr jobs::Origin kAtHome{0, 0, 0};
 
 // Returns a profile with accelerations and a slower high end, like the shipped profiles.
 inline Profile short_vectors_profile() {

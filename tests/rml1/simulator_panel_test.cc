@@ -253,7 +253,7 @@ TEST(MillDisplay, IsClearedByHAndIn) {
 
 TEST(MillControl, RefusesWithoutChange) {
   MillBench bench;
-  EXPECT_THAT(say(bench, "z1 5"), HasSubstr("error: '5' cannot stand for DEPTH; say: z1 DEPTH (DEPTH -8388608 to 0)"));
+  EXPECT_THAT(say(bench, "z1 5"), HasSubstr("error: '5' cannot be used as DEPTH; say: z1 DEPTH (DEPTH -8388608 to 0)"));
   EXPECT_THAT(say(bench, "origin 70000 0"), HasSubstr("error: this is outside of the work area"));
   EXPECT_THAT(say(bench, "z0 1"), HasSubstr("error: this is outside of the work area"));
   EXPECT_THAT(say(bench, "fly"), HasSubstr("there is no command 'fly'; say one of: help, view"));

@@ -52,12 +52,12 @@ std::vector<std::string> played(const std::string& job, const Cuts& cuts) {
   return lines;
 }
 
-std::string reach(const Reach& reach) { return fmt::format("{} {} {}", reach.any, reach.lowest, reach.highest); }
+std::string reach(const jobs::Reach& reach) { return fmt::format("{} {} {}", reach.any, reach.lowest, reach.highest); }
 
 std::vector<std::string> judged(const std::string& job, const Cuts& cuts) {
   Profile profile = test_profile();
   profile.baud = 9600;
-  Check check(profile, {kMidway, Stock{10, 10, 5}, {{"other", 0.025, 60.5}}});
+  Check check(profile, {kMidway, jobs::Stock{10, 10, 5}, {{"other", 0.025, 60.5}}});
   std::size_t begin = 0;
   for (const std::size_t cut : cuts) {
     check.feed(std::string_view(job).substr(begin, cut - begin));

@@ -49,17 +49,17 @@ TEST(SpindleSpeed, ThatIsSetStays) {
 TEST(WhatAJobLeaves, IsWhatDfAndInDoNotReset) {
   Profile profile = test_profile();
   const auto leaves = [&profile](const char* job) { return checked(job, profile, {kMidway, {}, {}})->leaves(); };
-  EXPECT_EQ(leaves("PU;W100;!PZ-9,9;!MC0;PR;!ZEX9;"), Leaves());
-  EXPECT_EQ(leaves("PU;!ZO-5000;"), Leaves{.surface = true});
-  EXPECT_EQ(leaves("!RC5;PU;"), Leaves());
+  EXPECT_EQ(leaves("PU;W100;!PZ-9,9;!MC0;PR;!ZEX9;"), jobs::Leaves());
+  EXPECT_EQ(leaves("PU;!ZO-5000;"), jobs::Leaves{.surface = true});
+  EXPECT_EQ(leaves("!RC5;PU;"), jobs::Leaves());
   profile.spindle.law = Spindle::Law::stages;
-  EXPECT_EQ(leaves("!RC;PU;"), Leaves());
-  EXPECT_EQ(leaves("!RC5;PU;DF;"), Leaves{.revolutions = true});
-  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), Leaves{.rotation = true});
+  EXPECT_EQ(leaves("!RC;PU;"), jobs::Leaves());
+  EXPECT_EQ(leaves("!RC5;PU;DF;"), jobs::Leaves{.revolutions = true});
+  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), jobs::Leaves{.rotation = true});
   profile.dialect.tolerated = {"J"};
-  EXPECT_EQ(leaves("PU;J2;H;"), Leaves{.tool = true});
+  EXPECT_EQ(leaves("PU;J2;H;"), jobs::Leaves{.tool = true});
   profile.rotary.reset();
-  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), Leaves());
+  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), jobs::Leaves());
 }
 
 // 5-3: I R PR make coordinates relative; M D H IN PA DF absolute.

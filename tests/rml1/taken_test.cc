@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 class Taken : public SenderTest {};
 
 TEST_F(Taken, WhatAConverterCannotHoldIsTaken) {
-  begin(vectors(200), {.streaming = Streaming::full, .converter = 100, .flow_control = true});
+  begin(vectors(200), {.streaming = jobs::Streaming::full, .converter = 100, .flow_control = true});
   run_for(milliseconds(200));
   const std::size_t left = line_.received.size();
   ASSERT_GT(left, 150u);
@@ -28,7 +28,7 @@ TEST_F(Taken, WhatAConverterCannotHoldIsTaken) {
 }
 
 TEST_F(Taken, WithoutFlowControlOnlyWhatIsExecutedIsTaken) {
-  begin(vectors(200), {.streaming = Streaming::full, .converter = 100});
+  begin(vectors(200), {.streaming = jobs::Streaming::full, .converter = 100});
   for (int i = 0; i < 100; ++i) {
     run_for(milliseconds(100));
     ASSERT_EQ(progress().taken, progress().executed_least);
@@ -38,14 +38,14 @@ TEST_F(Taken, WithoutFlowControlOnlyWhatIsExecutedIsTaken) {
 
 // The mill may have no room for bytes sent against flow control.
 TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
-  begin(vectors(200), {.streaming = Streaming::full, .converter = 0, .flow_control = true});
+  begin(vectors(200), {.streaming = jobs::Streaming::full, .converter = 0, .flow_control = true});
   run_for(milliseconds(200));
   line_.busy = true;
   ASSERT_GT(line_.unsent(), 0u);
   const std::size_t left = line_.received.size();
   sender_->abort(now_);
   run_for(milliseconds(500));
-  ASSERT_EQ(sender_->state(), SenderState::aborted);
+  ASSERT_EQ(sender_->state(), jobs::SenderState::aborted);
   EXPECT_EQ(progress().taken, left);
 }
 
@@ -53,7 +53,8 @@ TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
 TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotExecuted) {
   std::string list = "PD0,0";
   for (int i = 1; i < 60; ++i) list += ",1000,0,0,0";
-  begin(vectors(10) + list + ";", {.streaming = Streaming::full, .buffer = 100, .converter = 0, .flow_control = true});
+  begin(vectors(10) + list + ";",
+        {.streaming = jobs::Streaming::full, .buffer = 100, .converter = 0, .flow_control = true});
   run_for(milliseconds(120));
   line_.busy = true;
   const std::uint64_t executed = progress().executed_least;
@@ -61,13 +62,13 @@ TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotExecuted) {
   ASSERT_LT(line_.received.size(), 130u);
   sender_->abort(now_);
   run_for(milliseconds(1000));
-  ASSERT_EQ(sender_->state(), SenderState::aborted);
+  ASSERT_EQ(sender_->state(), jobs::SenderState::aborted);
   ASSERT_GT(line_.received.size(), 150u);
   EXPECT_EQ(progress().executed_least, executed);
 }
 
 TEST_F(Taken, WhatIsDiscardedWithTheLineIsNotTaken) {
-  begin(vectors(200), {.streaming = Streaming::full, .converter = 0, .flow_control = true});
+  begin(vectors(200), {.streaming = jobs::Streaming::full, .converter = 0, .flow_control = true});
   run_for(milliseconds(200));
   ASSERT_GT(line_.unsent(), 0u);
   const std::size_t left = line_.received.size();

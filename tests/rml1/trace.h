@@ -13,9 +13,9 @@
 namespace axisgate::rml1 {
 
 // Origin with Z from -1050 to 5000 by test_profile(), and X and Y from -10000 to 50500.
-inline constexpr Origin kMidway{100, 100, 50};
+inline constexpr jobs::Origin kMidway{100, 100, 50};
 
-inline std::string text(const Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
+inline std::string text(const jobs::Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
 
 // Returns the ends of the moves.
 inline std::vector<std::string> ends(const Played& played) {

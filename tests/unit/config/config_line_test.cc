@@ -57,7 +57,7 @@ TEST(ConfigLine, APrinterHasAPathOfItsOwnAndNoRate) {
 
 TEST(ConfigLine, NoStageIsAPrinter) {
   EXPECT_THAT(errors_of(std::string("[[device]]\nname = \"stage\"\n") + kPrinter),
-              ElementsAre("lab.toml:3: device.connection: \"printer\" is for mills: nothing that answers is behind it; "
+              ElementsAre("lab.toml:3: device.connection: \"printer\" is for mills: a printer device never answers; "
                           "use \"serial\""));
 }
 

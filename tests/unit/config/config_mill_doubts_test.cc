@@ -31,7 +31,7 @@ TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
     ASSERT_TRUE(config) << to_string(config.error().front());
     EXPECT_EQ(mill_in(*config).profile_name, name);
     EXPECT_THAT(mill_in(*config).doubts, IsEmpty()) << name;
-    EXPECT_EQ(mill_in(*config).sending.streaming, rml1::Streaming::full) << name;
+    EXPECT_EQ(mill_in(*config).sending.streaming, jobs::Streaming::full) << name;
   }
 }
 

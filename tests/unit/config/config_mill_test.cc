@@ -95,10 +95,10 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(serial.parity, Parity::even);
   EXPECT_EQ(serial.flow, FlowControl::rts_cts);
   const MillConfig mill = mill_of(*config);
-  EXPECT_EQ(mill.kind, "rml1");
+  EXPECT_EQ(mill.kind->name(), "rml1");
   EXPECT_EQ(mill.profile_name, "mdx-20");
-  EXPECT_EQ(mill.profile.name, "MDX-20");
-  EXPECT_EQ(mill.sending.streaming, rml1::Streaming::full);
+  EXPECT_EQ(mill.model->name(), "MDX-20");
+  EXPECT_EQ(mill.sending.streaming, jobs::Streaming::full);
   EXPECT_EQ(mill.sending.window, 128u);
   EXPECT_EQ(mill.sending.buffer, 2048u);
   EXPECT_EQ(mill.sending.converter, 0u);
@@ -109,7 +109,7 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(mill.confirmation, std::chrono::minutes(5));
   EXPECT_THAT(mill.tools, ElementsAre("T1", "ball-nose_3"));
   EXPECT_EQ(mill.busy_limit, std::chrono::minutes(1));
-  EXPECT_EQ(mill.at_loss, rml1::AtLoss::leave);
+  EXPECT_EQ(mill.at_loss, jobs::AtLoss::leave);
   EXPECT_EQ(mill.at_exit, MillConfig::AtExit::finish);
   ASSERT_EQ(mill.origins.size(), 2u);
   EXPECT_EQ(mill.origins[0].name, "vice");
@@ -123,7 +123,7 @@ TEST(ConfigMill, IsReadWhole) {
 TEST(ConfigMill, TheUsualStreaming) {
   const auto is_full = [](const std::string& added) {
     const auto config = parse(std::string(kSerial) + kPath + added);
-    return config && mill_of(*config).sending.streaming == rml1::Streaming::full;
+    return config && mill_of(*config).sending.streaming == jobs::Streaming::full;
   };
   EXPECT_TRUE(is_full("flow_control = \"xonxoff\"\n"));
   EXPECT_TRUE(is_full("flow_control = \"rtscts\"\n"));
@@ -136,7 +136,7 @@ TEST(ConfigMill, Defaults) {
   const auto config = parse(std::string(kSerial) + kPath);
   ASSERT_TRUE(config) << to_string(config.error().front());
   const MillConfig mill = mill_of(*config);
-  EXPECT_EQ(mill.sending.streaming, rml1::Streaming::paced);
+  EXPECT_EQ(mill.sending.streaming, jobs::Streaming::paced);
   EXPECT_EQ(mill.sending.window, 0u) << "chosen from the job";
   EXPECT_EQ(mill.sending.buffer, 1024u);
   EXPECT_EQ(mill.sending.converter, 512u);
@@ -147,7 +147,7 @@ TEST(ConfigMill, Defaults) {
   EXPECT_THAT(mill.tools, ElementsAre("T1"));
   EXPECT_THAT(mill.origins, IsEmpty());
   EXPECT_EQ(mill.busy_limit, std::chrono::minutes(10));
-  EXPECT_EQ(mill.at_loss, rml1::AtLoss::abort);
+  EXPECT_EQ(mill.at_loss, jobs::AtLoss::abort);
   EXPECT_EQ(mill.at_exit, MillConfig::AtExit::abort);
   EXPECT_EQ(mill.slower_percent, 0);
 }
@@ -162,8 +162,8 @@ TEST(ConfigMill, WithoutABaudRateItIsThatOfTheProfile) {
       "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"srm-20\"\nconnection = \"tcp\"\n"
       "host = \"moxa.lab\"\nport = 4001\n");
   ASSERT_TRUE(without) << to_string(without.error().front());
-  EXPECT_FALSE(mill_of(*without).profile.baud);
-  EXPECT_EQ(without->devices.at(0).baud, rml1::SendSettings{}.baud);
+  EXPECT_FALSE(mill_of(*without).model->baud());
+  EXPECT_EQ(without->devices.at(0).baud, jobs::SendSettings{}.baud);
 }
 
 TEST(ConfigMill, NumbersAndWordsAreChecked) {
@@ -254,7 +254,7 @@ TEST_F(ConfigMillProfile, AFileIsReadAndItsPathWrittenAndHidden) {
   good.erase(good.find("window"));
   const auto config = parse(good);
   ASSERT_TRUE(config) << to_string(config.error().front());
-  EXPECT_EQ(mill_of(*config).profile.name, "MDX-50");
+  EXPECT_EQ(mill_of(*config).model->name(), "MDX-50");
   EXPECT_THAT(to_toml(*config), HasSubstr("profile = \"" + file + "\"\n"));
   EXPECT_EQ(mill_of(Redactor().redact(*config)).profile_name, "/path-2") << "the socket has the first";
 }

@@ -46,7 +46,7 @@ TEST(ConfigSending, FullStreamingNeedsALineThatHoldsTheHostBack) {
       errors_of(kSimulated + "streaming = \"full\"\n"),
       ElementsAre("lab.toml:6: device.streaming: \"full\" sends as fast as the line takes it, and nothing holds "
                   "the host back from the built-in simulator, so bytes would be lost when the mill's buffer is "
-                  "full; use \"paced\", or rml1-sim behind a port"));
+                  "full; use \"paced\", or rml1-sim on a port"));
 }
 
 TEST(ConfigSending, TheSlackIsANumberOrMeasured) {

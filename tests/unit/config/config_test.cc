@@ -81,7 +81,7 @@ maximum_speed = "2mm/s"
   EXPECT_EQ(to_string(config->metrics), "127.0.0.1:0");
   const auto& stage = std::get<StageConfig>(config->devices.at(0).family);
   const stage::Profile& profile = stage.profile;
-  const stage::Words& kind_settings = stage.kind_settings;
+  const Words& kind_settings = stage.kind_settings;
   EXPECT_EQ(profile.serial_number, "2106001001");
   EXPECT_EQ(kind_settings.at("busy_scope"), "axis");
   EXPECT_EQ(kind_settings.at("prebuffer_scope"), "axis");

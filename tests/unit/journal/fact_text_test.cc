@@ -128,31 +128,31 @@ TEST(FactText, Stops) {
 }
 
 TEST(FactText, AJobOfAMill) {
-  rml1::Job job{.number = 7,
+  jobs::Job job{.number = 7,
                 .name = "part.rml",
                 .owner = "unix jürgen",
-                .setup = {"d1", "MDX-20", "vice", "T1", {}, rml1::Place{20, 2, 5}},
+                .setup = {"d1", "MDX-20", "vice", "T1", {}, jobs::Place{20, 2, 5}},
                 .bytes = 5000,
-                .state = rml1::JobState::paused_unknown};
-  job.confirmation = rml1::Confirmation{"unix bert", TimePoint(nanoseconds(1'000'000'001))};
-  job.written = rml1::WrittenRange{120, 248};
+                .state = jobs::JobState::paused_unknown};
+  job.confirmation = jobs::Confirmation{"unix bert", TimePoint(nanoseconds(1'000'000'001))};
+  job.written = jobs::WrittenRange{120, 248};
   job.setup.left = {"job 6 (lid.rml) sets Z0"};
   job.parts = {{"T1", 2000, {std::chrono::seconds(61), std::chrono::seconds(90)}}, {"T3", 5000}};
   job.part = 1;
-  const auto read = read_again(JobChanged{job, rml1::SenderState::paused, "unix anna", "the line was lost"});
+  const auto read = read_again(JobChanged{job, jobs::SenderState::paused, "unix anna", "the line was lost"});
   EXPECT_EQ(read.job.number, 7u);
   EXPECT_EQ(read.job.name, "part.rml");
   EXPECT_EQ(read.job.owner, "unix jürgen");
   EXPECT_EQ(read.job.setup, job.setup);
   EXPECT_EQ(read.job.bytes, 5000u);
-  EXPECT_EQ(read.job.state, rml1::JobState::paused_unknown);
+  EXPECT_EQ(read.job.state, jobs::JobState::paused_unknown);
   ASSERT_TRUE(read.job.confirmation && read.job.written);
   EXPECT_EQ(read.job.confirmation->by, "unix bert");
   EXPECT_EQ(read.job.confirmation->until, TimePoint(nanoseconds(1'000'000'001)));
-  EXPECT_EQ(*read.job.written, (rml1::WrittenRange{120, 248}));
+  EXPECT_EQ(*read.job.written, (jobs::WrittenRange{120, 248}));
   EXPECT_EQ(read.job.parts, job.parts);
   EXPECT_EQ(read.job.part, 1u);
-  EXPECT_EQ(read.sending, rml1::SenderState::paused);
+  EXPECT_EQ(read.sending, jobs::SenderState::paused);
   EXPECT_EQ(read.who, "unix anna");
   EXPECT_EQ(read.why, "the line was lost");
   const auto plain = read_again(JobChanged{});

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "device/rml1/machine/profile.h"
+#include "device/rml1/model.h"
 #include "server/devices/spooled_jobs.h"
 #include "tests/paths/paths.h"
 #include "tests/unit/server/spool_bed.h"
@@ -21,21 +23,23 @@ constexpr std::string_view kFirst = "PA;PU1,1;\nPU2,2;\n", kSecond = "PU1,1;\nPU
 class ChosenRest : public spool_test::SpoolBed {
  protected:
   void SetUp() override {
-    config_.profile = *rml1::load_profile(paths::in_project("deploy/mills/mdx-20.toml"));
+    config_.model = std::make_shared<const rml1::MillModel>(
+        "mdx-20", "", *rml1::load_profile(paths::in_project("deploy/mills/mdx-20.toml")),
+        std::vector<rml1::KnownMachine>());
     job_.number = upload(std::string(kFirst) + std::string(kSecond) + "PU9,9;")->id;
     job_.parts = {{"T1", kFirst.size()}, {"T2", kFirst.size() + kSecond.size()}, {"T1", 52}};
     go_to_part(job_, 1);
   }
   // `sent`: least and most bytes of the part that may have been sent; nullopt if unknown.
-  std::string chosen(std::optional<rml1::WrittenRange> sent, std::uint64_t line) {
+  std::string chosen(std::optional<jobs::WrittenRange> sent, std::uint64_t line) {
     job_.written.reset();
-    if (sent) job_.written = rml1::WrittenRange{kFirst.size() + sent->least, kFirst.size() + sent->most};
-    const Result<rml1::Place> place = chosen_rest(*spool_, "mill", config_, job_, line, 1);
+    if (sent) job_.written = jobs::WrittenRange{kFirst.size() + sent->least, kFirst.size() + sent->most};
+    const Result<jobs::Place> place = chosen_rest(*spool_, "mill", config_, job_, line, 1);
     return place ? fmt::format("{}:{}", place->line, place->column) : place.error().message;
   }
 
   MillConfig config_;
-  rml1::Job job_;
+  jobs::Job job_;
 };
 
 TEST_F(ChosenRest, IsNotBeforeWhatTheMillMayHaveDoneAndNothingGivesBack) {
@@ -61,7 +65,7 @@ TEST_F(ChosenRest, NamesNothingThatAMillWithoutFlowControlMayHaveLost) {
 }
 
 TEST_F(ChosenRest, SaysWhatAnAbortHasLeft) {
-  job_.executed = rml1::PlaceRange{{7, 2, 1}, {14, 3, 1}};
+  job_.executed = jobs::PlaceRange{{7, 2, 1}, {14, 3, 1}};
   EXPECT_THAT(chosen(std::nullopt, 0), HasSubstr("ends at line 2, column 1, or later, up to line 3, column 1"));
   EXPECT_EQ(chosen(std::nullopt, 2), "2:1") << "Z0 was not sent";
 }

@@ -15,8 +15,8 @@
 namespace axisgate::server::mill_metrics_test {
 namespace {
 
-using rml1::Job;
-using rml1::JobState;
+using jobs::Job;
+using jobs::JobState;
 using std::chrono_literals::operator""s;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -89,7 +89,7 @@ TEST_F(MillMetricsTest, BytesAndCommandsOfEachJob) {
 }
 
 TEST_F(MillMetricsTest, TheBufferIsARangeWhileAJobRuns) {
-  rml1::RunningJob running;
+  jobs::RunningJob running;
   running.progress = {.written = 100, .unsent = 0, .executed_least = 30, .executed_most = 80};
   running.busy = true;
   mill_.set_state({}, running);
@@ -106,7 +106,7 @@ TEST_F(MillMetricsTest, TheBufferIsARangeWhileAJobRuns) {
 
 TEST_F(MillMetricsTest, TheMeasuredPaceIsARange) {
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"most\",device=\"mill\"} 0\n"));
-  mill_.set_pace(rml1::MeasuredPace{1.125, 1.25});
+  mill_.set_pace(jobs::MeasuredPace{1.125, 1.25});
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"least\",device=\"mill\"} 1.125\n"));
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"most\",device=\"mill\"} 1.25\n"));
 }
@@ -123,11 +123,11 @@ TEST_F(MillMetricsTest, TheQueueByState) {
 }
 
 TEST_F(MillMetricsTest, TheLineAndTheAborts) {
-  mill_.set_link(rml1::MillLink::open);
+  mill_.set_link(jobs::MachineLink::open);
   mill_.count_abort();
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_line_open{device=\"mill\"} 1\n"));
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_aborts_total{device=\"mill\"} 1\n"));
-  mill_.set_link(rml1::MillLink::closed);
+  mill_.set_link(jobs::MachineLink::closed);
   EXPECT_THAT(page(), HasSubstr("axisgate_mill_line_open{device=\"mill\"} 0\n"));
 }
 

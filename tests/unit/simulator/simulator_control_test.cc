@@ -85,12 +85,12 @@ TEST_F(SimulatorControl, ARefusalSaysWhatIsAllowed) {
   EXPECT_THAT(say(" \t "), StartsWith("error: the line is empty" + one_of));
   EXPECT_EQ(say("limit"), "error: AXIS is missing" + limit);
   EXPECT_EQ(say("limit 1 cw"), "error: on|off is missing" + limit);
-  EXPECT_EQ(say("limit 4 cw on"), "error: '4' cannot stand for AXIS" + limit);
-  EXPECT_EQ(say("limit 1 up on"), "error: 'up' cannot stand for cw|ccw" + limit);
+  EXPECT_EQ(say("limit 4 cw on"), "error: '4' cannot be used as AXIS" + limit);
+  EXPECT_EQ(say("limit 1 up on"), "error: 'up' cannot be used as cw|ccw" + limit);
   EXPECT_EQ(say("limit 1 cw on now"), "error: 'now' is too much" + limit);
   EXPECT_EQ(say("power"), "error: cycle is missing; say: power cycle");
-  EXPECT_EQ(say("power off"), "error: 'off' cannot stand for cycle; say: power cycle");
-  EXPECT_EQ(say("inputs 64"), "error: '64' cannot stand for NUMBER; say: inputs NUMBER (NUMBER 0 to 63)");
+  EXPECT_EQ(say("power off"), "error: 'off' cannot be used as cycle; say: power cycle");
+  EXPECT_EQ(say("inputs 64"), "error: '64' cannot be used as NUMBER; say: inputs NUMBER (NUMBER 0 to 63)");
 }
 
 TEST_F(SimulatorControl, NumbersAreReadWholeOrNotAtAll) {
