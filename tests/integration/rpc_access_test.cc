@@ -1,4 +1,4 @@
-// Who is let in to what: every method, every role, every kind of credential, over the Unix socket, loopback and TLS.
+// Tests of access: every method, every role and every kind of credential, over the Unix socket, loopback and TLS.
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 using server::Role;
 
-// What each asks for, typed from README's table of roles. In kOperator are also what `admin_commands` keeps for
-// administrators.
+// Methods by their least role, typed from the table of roles in the README. kOperator also has the methods that
+// `admin_commands` restricts to administrators.
 const std::set<std::string> kObserver = {"AccessService/GetCaller",
                                          "CommandService/ListCommands",
                                          "ControlService/WatchLeases",

@@ -35,7 +35,7 @@ class RpcEnvelope : public RpcTest {
 
   static std::string own_name() { return server::caller_name(::geteuid()); }
 
-  // What the lines were refused for, before any was sent; unspecified where they were not.
+  // Returns the reason for which the lines were refused before any was sent; unspecified if they were not.
   v1::Reason refused(const Lines& lines) {
     grpc::ClientContext context;
     limit(context);
@@ -105,7 +105,7 @@ TEST_F(RpcEnvelope, SpeedsAreInTheUnitOfTheirWay) {
   EXPECT_EQ(refused({"AP:1+M0.01,S0.1F0.7R100", "G:1"}), v1::REASON_TOO_FAST);
 }
 
-// What is set last is what starts, from where the axis stands: manual section 2.
+// A start executes the last setting, from the present position of the axis: manual section 2.
 TEST_F(RpcEnvelope, SettingsThatMayChainAreRefused) {
   EXPECT_EQ(refused({"MP:1+P10", "G:1", "MP:1+P10", "MP:1+P10", "G:1"}), v1::REASON_INVALID_REQUEST);
 }

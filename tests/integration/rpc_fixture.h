@@ -56,7 +56,7 @@ class RpcTest : public ::testing::Test {
     wait_until_up();
   }
 
-  // What a test has different.
+  // Changes the configuration for a test.
   virtual void configure(server::Config&) {}
 
   void TearDown() override {
@@ -67,7 +67,7 @@ class RpcTest : public ::testing::Test {
     std::filesystem::remove(directory_);
   }
 
-  // Of every call in these tests: long enough for a slow machine, so that a hang fails instead of hanging.
+  // Limits every call in these tests to a time that suffices on a slow machine, so that a hang fails.
   static void limit(grpc::ClientContext& context) {
     context.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(30)));
   }

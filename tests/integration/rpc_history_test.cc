@@ -59,7 +59,7 @@ class RpcHistory : public RpcTest {
     for (const char* suffix : {"-wal", "-shm"}) std::filesystem::remove(path_ + suffix);
   }
 
-  // Of the entries that were written by hand; the daemon's own are later.
+  // Returns a request for the entries that the test has written; those of the daemon are later.
   static v1::ListHistoryRequest by_hand() {
     v1::ListHistoryRequest request;
     *request.mutable_end_time() = TimeUtil::SecondsToTimestamp(kEvening + 60);

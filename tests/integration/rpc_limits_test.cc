@@ -1,4 +1,4 @@
-// What becomes of a caller who has as much open as one may, and of the others.
+// Tests of a caller at the limit of open calls, and of the other callers.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -94,7 +94,7 @@ class RpcLimits : public RpcTest {
     return true;
   }
 
-  // As soon as there is a place: a stream that its reader has left keeps its own for a moment.
+  // Opens a stream as soon as there is a place: a stream that its reader has left keeps its place for a moment.
   static std::unique_ptr<OpenStream> stream(const Channel& channel, const std::string& authorization = "") {
     std::unique_ptr<OpenStream> made;
     const auto let_in = [&] {

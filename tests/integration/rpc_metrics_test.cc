@@ -1,4 +1,4 @@
-// What the metrics page says about calls and streams.
+// Tests of the metrics of calls and streams.
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ class RpcMetricsTest : public RpcTest {
     for (std::size_t i = 0; i < facts; ++i) gateway_->events().publish("nobody", fact, server::to_wall(now));
   }
 
-  // What becomes of a watcher from this revision on.
+  // Watches from this revision on and returns the end of the stream.
   grpc::Status watch(std::uint64_t from) {
     grpc::ClientContext context;
     limit(context);

@@ -46,7 +46,7 @@ TEST_F(RpcMill, WithoutAConfirmationItDoesNotStart) {
   EXPECT_EQ(reason(confirm(other)), v1::REASON_STALE_SETPOINT);
 }
 
-// Nobody waits for a worker that reads jobs in vain.
+// The worker reads no job in vain, so no other caller waits for that.
 TEST_F(RpcMill, WhatCannotStartOrContinueIsNotRead) {
   const v1::Job job = sent(vectors(6));
   std::ofstream(directory_ + ".spool/mill/1.rml", std::ios::app) << "PU;";

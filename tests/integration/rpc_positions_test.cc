@@ -157,7 +157,7 @@ TEST_F(RpcPositions, ANameMeansTheNewPlaceUnlessTheOldIsKept) {
   EXPECT_EQ(saved("sample").number(), 1);
   moved(1, "0");
   expect_reached("sample", 1, 100'000);
-  // Of the other kind it has another number, and the old one is another's to use.
+  // A position of the other kind has another number, and the old number is free again.
   EXPECT_EQ(saved("sample", v1::POSITION_KIND_COORDINATES).kind(), v1::POSITION_KIND_COORDINATES);
   EXPECT_EQ(list().size(), 1u);
   EXPECT_EQ(saved("next").number(), 1);
@@ -282,7 +282,7 @@ TEST_F(RpcPositions, OfAnEarlierRunOfTheDaemon) {
   ASSERT_TRUE(positions_->keep(position));
   EXPECT_TRUE(list().front().emptied());
   EXPECT_EQ(reason(go("sample")), v1::REASON_EPOCH_PASSED);
-  // What the controller that is here now has under that number is not deleted.
+  // The position that the present controller has under that number is not deleted.
   EXPECT_TRUE(forget("sample").ok());
   EXPECT_EQ(controller("PIT:GET,1"), "5,0,0");
 }

@@ -1,4 +1,4 @@
-// What a connection is served that comes when there is no place left.
+// Tests of the calls that a connection is served if no place is left when it comes.
 #include <google/protobuf/descriptor.h>
 
 #include <chrono>

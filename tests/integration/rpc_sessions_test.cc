@@ -1,4 +1,4 @@
-// Whether a stop comes from the program whose motion it stops: by its connection, or by its `axisgate-session`.
+// Tests of sessions: a program is recognised by its connection, or by its `axisgate-session`.
 #include <gmock/gmock.h>
 
 #include <memory>

@@ -7,7 +7,7 @@ namespace axisgate::rpc {
 namespace {
 
 TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
-  // Of common.proto's comments, by hand.
+  // Codes typed from the comments in common.proto.
   const std::pair<Reason, grpc::StatusCode> expected[] = {
       {Reason::unspecified, grpc::UNKNOWN},
       {Reason::invalid_request, grpc::INVALID_ARGUMENT},
