@@ -15,7 +15,7 @@
 
 namespace axisgate::jobs {
 
-// Whose QUEUED jobs another one is moved before.
+// QUEUED jobs that a moved job overtakes.
 enum class Overtaken { all, of_its_owner };
 
 // Listens to a queue. Called from within its members; must not call back.

@@ -1,5 +1,5 @@
-// What the server asks of a machine that is sent jobs, whatever language the jobs have. The machine's folder implements
-// it.
+// Interface of a machine that is sent jobs to the server, whatever language the jobs have. The machine's folder
+// implements it.
 #pragma once
 
 #include <chrono>
@@ -88,13 +88,13 @@ class Machine : public LineMachine {
   virtual Result<void> check_startable(JobNumber job, TimePoint now) = 0;
   // Starts a job: its first byte goes out if the machine takes it. `prepared` is by the machine's own Model, of the
   // bytes of the job's next part. Fails as check_startable() and Permission::authorize() do.
-  virtual Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared,
-                             const stage::RequestContext& by, TimePoint now) = 0;
+  virtual Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by,
+                             TimePoint now) = 0;
   // Pauses the running job. `raise`: after what was sent, the tool is raised and the job is PAUSED. Fails with
   // wrong_mode if no job is being sent.
   virtual Result<void> pause(bool raise, TimePoint now) = 0;
   // Fails with wrong_mode if no job is paused with the tool in the cut, and as Permission::authorize() does.
-  virtual Result<void> resume(const stage::RequestContext& by, TimePoint now) = 0;
+  virtual Result<void> resume(const use::RequestContext& by, TimePoint now) = 0;
   // Lets a job that is PAUSED_UNKNOWN or PAUSED continue at that place of its part, once it is confirmed and started.
   // Fails with not_found; wrong_mode.
   virtual Result<void> choose_rest(JobNumber job, const JobRest& rest, std::string_view by, TimePoint now) = 0;
@@ -103,7 +103,7 @@ class Machine : public LineMachine {
   // Aborts: nothing of the running job is written after it. The machine is sent the abort even if no job runs. Returns
   // false if the line is closed; then it is sent when the line is back. Nobody whose job it ends, or whose lease it
   // concerns, may start another one before they rearm.
-  virtual bool abort(const stage::RequestContext& by, TimePoint now) = 0;
+  virtual bool abort(const use::RequestContext& by, TimePoint now) = 0;
   // Aborts without holding anybody back: it ends the job and is no stop.
   virtual bool abort(std::string_view by, TimePoint now) = 0;
   // Fails with not_found; wrong_mode if the job's state does not have it.
@@ -114,7 +114,7 @@ class Machine : public LineMachine {
   // Does an act by hand while no job runs; what was confirmed is void. Returns the time after which the machine has
   // done it, and all that was sent before; until then no job is started, and no other step. Fails with wrong_mode;
   // link_down; axis_busy; and as Permission::authorize() and Model::longest() do.
-  virtual Result<Duration> operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) = 0;
+  virtual Result<Duration> operate(const HandAct& act, const use::RequestContext& by, TimePoint now) = 0;
 
   // Jobs that have not ended, in the order of the queue; the one that runs is among them.
   virtual const std::vector<Job>& jobs() const = 0;

@@ -20,7 +20,7 @@
 #include "device/jobs/named_origin.h"
 #include "device/jobs/origin.h"
 #include "device/jobs/send_settings.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::jobs {
 
@@ -64,7 +64,7 @@ class Model {
 
   // The model and the other arguments must outlive the machine.
   virtual std::unique_ptr<Machine> make_machine(const MachineSettings& settings, FlowLink& line, MachineEvents& events,
-                                                stage::Permission& permission) const = 0;
+                                                use::Permission& permission) const = 0;
   // `options`: checked by the Kind. `slower_percent`: each motion takes so much longer than the model says. The model
   // and `line` must outlive the simulation.
   virtual std::unique_ptr<Simulation> make_simulation(const Words& options, std::size_t buffer, double slower_percent,

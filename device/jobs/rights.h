@@ -9,8 +9,8 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/jobs/job.h"
-#include "device/stage/permission.h"
 #include "device/stage/requests.h"
+#include "device/use/permission.h"
 
 namespace axisgate::jobs {
 
@@ -18,21 +18,21 @@ namespace axisgate::jobs {
 class Rights {
  public:
   // The permission must outlive this object.
-  explicit Rights(stage::Permission& permission) : permission_(permission) {}
+  explicit Rights(use::Permission& permission) : permission_(permission) {}
 
   // Fails as Permission::authorize() does. `job`: the job that is to run; 0: none.
-  Result<void> authorize(const stage::RequestContext& by, JobNumber job, TimePoint now);
+  Result<void> authorize(const use::RequestContext& by, JobNumber job, TimePoint now);
   // The job occupies the mill until it ends.
-  void job_begins(const Job& job, const stage::RequestContext& by, TimePoint now);
+  void job_begins(const Job& job, const use::RequestContext& by, TimePoint now);
   void job_ends(JobNumber job, TimePoint now) { permission_.end(job, now); }
   // Holds back those whose job a stop ends, until they rearm.
-  void stop_asked(const stage::RequestContext& by, TimePoint now);
+  void stop_asked(const use::RequestContext& by, TimePoint now);
   // Calls `abort` for each lease whose loss ends a job, on behalf of whom it names.
   void advance(const std::function<void(std::string_view who)>& abort, TimePoint now);
   std::optional<TimePoint> next_deadline() const { return permission_.next_deadline(); }
 
  private:
-  stage::Permission& permission_;
+  use::Permission& permission_;
 };
 
 }  // namespace axisgate::jobs

@@ -119,8 +119,7 @@ Result<Duration> MillModel::longest(const jobs::HandAct& act, double slack) cons
 }
 
 std::unique_ptr<jobs::Machine> MillModel::make_machine(const jobs::MachineSettings& settings, FlowLink& line,
-                                                       jobs::MachineEvents& events,
-                                                       stage::Permission& permission) const {
+                                                       jobs::MachineEvents& events, use::Permission& permission) const {
   return std::make_unique<MillController>(profile_, settings, line, events, permission);
 }
 

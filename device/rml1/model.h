@@ -36,8 +36,7 @@ class MillModel final : public jobs::Model {
   Result<Duration> longest(const jobs::HandAct& act, double slack) const override;
 
   std::unique_ptr<jobs::Machine> make_machine(const jobs::MachineSettings& settings, FlowLink& line,
-                                              jobs::MachineEvents& events,
-                                              stage::Permission& permission) const override;
+                                              jobs::MachineEvents& events, use::Permission& permission) const override;
   std::unique_ptr<Simulation> make_simulation(const Words& options, std::size_t buffer, double slower_percent,
                                               ByteLink& line) const override;
 

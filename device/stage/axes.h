@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "device/use/scope.h"
+
 namespace axisgate::stage {
 
 // Number of axes of the largest supported controller. With fewer axes, the others are not controllable.
@@ -16,6 +18,8 @@ class AxisSet {
   constexpr AxisSet() = default;
   static constexpr AxisSet of(int axis) { return AxisSet(static_cast<std::uint8_t>(1u << (axis - 1))); }
   static constexpr AxisSet all() { return AxisSet(7); }
+  // Returns the axes of a scope of this stage.
+  static constexpr AxisSet in(use::Scope scope) { return AxisSet(scope.axes()); }
 
   constexpr bool has(int axis) const { return (bits_ >> (axis - 1)) & 1u; }
   constexpr bool empty() const { return bits_ == 0; }
@@ -23,7 +27,9 @@ class AxisSet {
   constexpr int lowest() const { return has(1) ? 1 : has(2) ? 2 : has(3) ? 3 : 0; }
   constexpr bool contains(AxisSet other) const { return (other.bits_ & ~bits_) == 0; }
   constexpr bool touches(AxisSet other) const { return (other.bits_ & bits_) != 0; }
-  std::vector<int> list() const;  // ascending
+  std::vector<int> list() const { return use::Scope(*this).list(); }  // ascending
+
+  constexpr operator use::Scope() const { return use::Scope::of_axes(bits_); }  // NOLINT(google-explicit-constructor)
 
   constexpr void add(int axis) { bits_ |= of(axis).bits_; }
   constexpr void remove(int axis) { bits_ &= static_cast<std::uint8_t>(~of(axis).bits_); }
@@ -38,6 +44,6 @@ class AxisSet {
   std::uint8_t bits_ = 0;
 };
 
-std::string to_string(AxisSet axes);  // "axis 1", "axes 1 and 3", "no axis", for people
+inline std::string to_string(AxisSet axes) { return use::to_string(axes); }  // "axis 1", "axes 1 and 3", "no axis"
 
 }  // namespace axisgate::stage

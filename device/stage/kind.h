@@ -14,12 +14,12 @@
 #include "device/core/simulation.h"
 #include "device/stage/command_info.h"
 #include "device/stage/event.h"
-#include "device/stage/permission.h"
 #include "device/stage/position_slot.h"
 #include "device/stage/profile.h"
 #include "device/stage/settings.h"
 #include "device/stage/stage_controller.h"
 #include "device/stage/state.h"
+#include "device/use/permission.h"
 
 namespace axisgate::stage {
 
@@ -50,7 +50,7 @@ class Kind {
   // `settings` has an allowed value for each of settings(). The other arguments must outlive the controller.
   virtual std::unique_ptr<StageController> make_controller(const Profile& profile, const Words& settings,
                                                            ByteLink& link, EventSink& events,
-                                                           Permission& permission) const = 0;
+                                                           use::Permission& permission) const = 0;
 
   // Checks a caller's own lines, as far as the lines alone allow. Fails with malformed_line, unknown_command,
   // incomplete_transaction or invalid_request.

@@ -6,15 +6,7 @@
 
 namespace axisgate::stage {
 
-std::string text_of(const Occupation& occupation, TimePoint now) {
-  std::string left;
-  if (occupation.due && *occupation.due > now) {
-    left = fmt::format(", {} left", for_people(std::chrono::ceil<std::chrono::seconds>(*occupation.due - now)));
-  }
-  return fmt::format("{} ({}{}){}", occupation.before, occupation.by, left, occupation.after);
-}
-
-Occupation occupation_by(const Motion& motion) {
+use::Occupation occupation_by(const Motion& motion) {
   const std::string by = fmt::format("{} by {}", name(motion.kind), motion.who);
   const std::string what = fmt::format("motion {}", motion.id);
   if (motion.axes.empty()) return {by, what, " sets the controller", motion.due};

@@ -9,6 +9,7 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/stage/axes.h"
+#include "device/use/occupation.h"
 
 namespace axisgate::stage {
 
@@ -56,15 +57,7 @@ struct Motion {
   std::optional<ScanResult> scan;
 };
 
-// An Occupation describes a motion to the callers who wait for its axes.
-struct Occupation {
-  std::string by;                // "move by unix bert"
-  std::string before, after;     // text around the parentheses: "axis 1 is in motion 1312", ""
-  std::optional<TimePoint> due;  // expected end; nullopt if unknown
-};
-// "axis 1 is in motion 1312 (move by unix bert, 4 s left)".
-std::string text_of(const Occupation& occupation, TimePoint now);
-Occupation occupation_by(const Motion& motion);
+use::Occupation occupation_by(const Motion& motion);
 
 std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog", "scan"
 std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...

@@ -17,25 +17,9 @@
 #include "device/stage/axes.h"
 #include "device/stage/motion.h"
 #include "device/stage/stop.h"
+#include "device/use/request_context.h"
 
 namespace axisgate::stage {
-
-// The caller of a request and its time limit. `not_after` limits when a motion may start and how long a question may
-// wait; it never stops a motion that has started.
-struct RequestContext {
-  std::string who;
-  std::string request_id{};
-  TimePoint not_after{};
-  std::uint64_t lease = 0;               // fencing token of the lease; 0: none
-  std::uint64_t device_epoch = 0;        // State::device_epoch that the caller expects; 0: any
-  std::uint64_t frame_epoch = 0;         // State::frame_epoch that the caller expects; 0: any
-  std::string role{};                    // role of the configuration, such as "operator"; selects the travel envelope
-  std::optional<TimePoint> answer_by{};  // for a stop: time by which its report is made, with whatever is known
-  std::string identity{};                // identity with which `who` takes turns; empty: `who`
-  std::string session{};                 // Use::session
-
-  const std::string& takes_turns_as() const { return identity.empty() ? who : identity; }
-};
 
 // S, F and R of an axis (manual 89) D:): speeds from 1 to 1,000,000 pulses/s, S <= F, R from 1 to 1,000 ms.
 struct SpeedProfile {
@@ -54,13 +38,13 @@ struct AxisMove {
 struct MoveRequest {
   std::vector<AxisMove> moves;  // at most one per axis
   bool relative = false;
-  RequestContext context;
+  use::RequestContext context;
 };
 
 // Mechanical origin return (manual 60) HRT:) or return to the logical origin (62) ZRT:).
 struct HomeRequest {
   AxisSet axes;  // empty: all controllable axes
-  RequestContext context;
+  use::RequestContext context;
 };
 
 // A circle, an arc or a helix (manual 71) to 82)). Values for two axes are in the order of `axes`.
@@ -100,7 +84,7 @@ struct ScanRequest {
   std::optional<int> acceleration_ms;
   bool by_scale = false;  // interval in scale pulses, in the direction of the scan
   std::int64_t interval = 0;
-  RequestContext context;
+  use::RequestContext context;
 };
 
 // A GoToPositionRequest moves to a position saved in the controller (manual 131) PIT:GRT, 136) PAV:GRT).
@@ -111,13 +95,13 @@ struct GoToPositionRequest {
   // the position must be saved. Used for a place whose coordinates may have changed or been recomputed since (manual
   // 129)).
   std::map<int, std::int64_t> expected;
-  RequestContext context;
+  use::RequestContext context;
 };
 
 struct PathRequest {
   static constexpr std::size_t kSegmentsMax = 100'000;
   std::vector<Segment> segments;
-  RequestContext context;
+  use::RequestContext context;
 };
 
 // A JogRequest runs axes until they are stopped: J: (manual 88)). The caller renews it again and again.
@@ -128,7 +112,7 @@ struct JogRequest {
     std::optional<Quantity> speed;  // per second (93) JD:); nullopt: S
   };
   std::vector<Axis> axes;  // at most one per axis
-  RequestContext context;
+  use::RequestContext context;
 };
 
 struct StopReport {
@@ -154,7 +138,7 @@ struct WindDownReport {
 
 struct ExecuteRequest {
   std::vector<std::string> lines;  // lines of one transaction: no other caller's motion comes between them
-  RequestContext context;
+  use::RequestContext context;
 };
 
 // An event of a transaction, in order: each line's reply, then each completion that the line caused, then the end.

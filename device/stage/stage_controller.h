@@ -29,7 +29,7 @@ class StageController : public LineMachine {
   // Returns the state, read again from the device if it is older than `max_age`. Fails with link_down while the device
   // is not up.
   using OnState = std::function<void(Result<State>)>;
-  virtual void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) = 0;
+  virtual void refresh(Duration max_age, const use::RequestContext& context, TimePoint now, OnState done) = 0;
 
   // Called once the motion has started (state running or later), or with the problem that prevented the start.
   using OnStarted = std::function<void(Result<Motion>)>;
@@ -53,7 +53,7 @@ class StageController : public LineMachine {
 
   // Checks that the caller may change these axes now. Fails with lease_held, lease_lost, outside_lease, stopped_by or
   // epoch_passed.
-  virtual Result<void> check_use(const RequestContext& context, AxisSet axes) = 0;
+  virtual Result<void> check_use(const use::RequestContext& context, AxisSet axes) = 0;
 
   // Checks that the device can take commands now. Fails with link_down; with wrong_mode if a person must first correct
   // something at the front panel; with not_sent after wind_down().
@@ -69,16 +69,16 @@ class StageController : public LineMachine {
   // timed out. The stop itself stays open, and is repeated across reconnects, until the axes are confirmed stationary.
   // Needs no lease.
   using OnStopped = std::function<void(StopReport)>;
-  virtual void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) = 0;
+  virtual void stop(AxisSet axes, const use::RequestContext& context, TimePoint now, OnStopped done) = 0;
   // Stops all axes in the same way, and refuses all motion until clear_errors() for all axes.
-  virtual void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) = 0;
+  virtual void emergency_stop(const use::RequestContext& context, TimePoint now, OnStopped done) = 0;
 
   using OnDone = std::function<void(Result<void>)>;
   // Abandons an open stop whose controller will never answer again. Fails with not_found.
-  virtual void withdraw_stop(StopId, const RequestContext&, TimePoint, OnDone done) {
+  virtual void withdraw_stop(StopId, const use::RequestContext&, TimePoint, OnDone done) {
     done(fail(Reason::not_found, "this kind of controller has no open stops"));
   }
-  virtual void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) = 0;
+  virtual void clear_errors(AxisSet axes, const use::RequestContext& context, TimePoint now, OnDone done) = 0;
 
   using OnExecute = std::function<void(const ExecuteEvent&)>;
   virtual void execute(ExecuteRequest request, TimePoint now, OnExecute event) = 0;
@@ -87,7 +87,7 @@ class StageController : public LineMachine {
   static constexpr std::size_t kMotionsKept = 1000;
   virtual std::vector<Motion> motions() const = 0;  // oldest first
   virtual std::optional<Motion> find_motion(MotionId id) const = 0;
-  virtual void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) = 0;
+  virtual void cancel_motion(MotionId id, const use::RequestContext& context, TimePoint now, OnDone done) = 0;
 
   virtual std::size_t queued(Lane lane) const = 0;
   // Number of answers to abandoned probes that may still come.

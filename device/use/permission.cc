@@ -1,13 +1,13 @@
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
-namespace axisgate::stage {
+namespace axisgate::use {
 namespace {
 
 class EverybodyMay final : public Permission {
   Result<void> authorize(const Use&, TimePoint) override { return {}; }
   void begin(const Use&, Occupation, TimePoint) override {}
-  void due(MotionId, TimePoint) override {}
-  void end(MotionId, TimePoint) override {}
+  void due(ActivityId, TimePoint) override {}
+  void end(ActivityId, TimePoint) override {}
   void stop_asked(const Use&, const std::vector<Use>&, TimePoint) override {}
   void device_restarted(TimePoint) override {}
   void settings_changed(std::uint64_t) override {}
@@ -24,4 +24,4 @@ Permission& everybody_may() {
   return permission;
 }
 
-}  // namespace axisgate::stage
+}  // namespace axisgate::use

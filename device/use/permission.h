@@ -1,6 +1,6 @@
-// The right to use axes: the interface through which server/access controls a stage controller. The controller calls it
-// before it takes a request, and again when it sends the bytes of a motion, so that no byte is sent after the caller
-// has lost the right.
+// The right to use a device: the interface through which server/access controls a controller. The controller calls it
+// before it takes a request, and again when it sends the bytes of a motion or a job, so that no byte is sent after the
+// caller has lost the right.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,28 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/stage/axes.h"
-#include "device/stage/motion.h"
+#include "device/use/occupation.h"
+#include "device/use/scope.h"
 
-namespace axisgate::stage {
+namespace axisgate::use {
 
-// A Use is one caller's use of some axes.
+using ActivityId = std::uint64_t;  // a motion of a stage, or a job; 0: none
+
+// A Use is one caller's use of a scope.
 struct Use {
   std::string who;
-  std::uint64_t lease = 0;  // fencing token; 0: no lease, the axes are borrowed for the duration of the motion
-  AxisSet axes;
-  MotionId motion = 0;  // motion id, or a mill's job; 0: not created yet
+  std::uint64_t lease = 0;  // fencing token; 0: no lease, the scope is borrowed for the duration of the motion
+  Scope scope;
+  ActivityId activity = 0;  // 0: not created yet
   // Session of the calling program, over all of its connections: a stop by the session does not block the session's own
   // motions. Empty: unknown. It gives no rights.
   std::string session{};
 };
 
-// A StopOrder stops axes whose caller has lost the right to move them.
+// A StopOrder stops what a caller moves who has lost the right to it.
 struct StopOrder {
   std::uint64_t id = 0;
-  AxisSet axes;
+  Scope scope;
   std::string who;  // person or caller on whose behalf, as text
 };
 
@@ -49,14 +51,14 @@ class Permission {
  public:
   virtual ~Permission() = default;
 
-  // Fails with lease_held, lease_lost or stopped_by if the caller may not use all of these axes now.
+  // Fails with lease_held, lease_lost or stopped_by if the caller may not use all of the scope now.
   virtual Result<void> authorize(const Use& use, TimePoint now) = 0;
 
-  // Report the progress of a motion: begin() when it has its turn on its axes, due() when its expected end is known,
-  // end() when it has left its axes, with any outcome. `occupation` is the text that other callers are shown.
+  // Report the progress of a motion or a job: begin() when it has its turn on its scope, due() when its expected end is
+  // known, end() when it has left its scope, with any outcome. `occupation` is the text that other callers are shown.
   virtual void begin(const Use& use, Occupation occupation, TimePoint now) = 0;
-  virtual void due(MotionId motion, TimePoint over) = 0;
-  virtual void end(MotionId motion, TimePoint now) = 0;
+  virtual void due(ActivityId activity, TimePoint over) = 0;
+  virtual void end(ActivityId activity, TimePoint now) = 0;
 
   // Reports that a stop of these axes was requested. `waiting`: motions on these axes that have not had their turn and
   // will never start.
@@ -77,4 +79,4 @@ class Permission {
 // A Permission that allows everything, for a gateway without leases.
 Permission& everybody_may();
 
-}  // namespace axisgate::stage
+}  // namespace axisgate::use

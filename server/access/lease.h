@@ -8,12 +8,12 @@
 #include <variant>
 
 #include "device/core/time.h"
-#include "device/stage/axes.h"
+#include "device/use/scope.h"
 #include "server/access/lease_tokens.h"
 
 namespace axisgate::server {
 
-using stage::AxisSet;
+using use::Scope;
 
 // Effect on the holder's motion when the lease is no longer kept alive.
 enum class AtLoss {
@@ -26,17 +26,17 @@ std::string_view name(AtLoss at_loss);  // "stop_and_release"
 struct LeaseTerms {
   static constexpr Duration kTimeToLive = std::chrono::seconds(10), kTimeToLiveMin = std::chrono::seconds(1),
                             kTimeToLiveMax = std::chrono::hours(24);
-  AxisSet axes;
+  Scope scope;
   Duration time_to_live = kTimeToLive;
   AtLoss at_loss = AtLoss::stop;
   std::optional<Duration> expected_use{};  // shown to waiting callers
   std::string purpose{};                   // for people; may be empty
-  std::string session{};                   // of the caller; see stage::Use::session
+  std::string session{};                   // of the caller; see use::Use::session
 };
 
 // A Latch is the effect of another caller's stop: nothing moves on these axes until the stopped caller rearms.
 struct Latch {
-  AxisSet axes;
+  Scope scope;
   std::string by;
   TimePoint at{};
 };
@@ -88,20 +88,20 @@ struct LeaseGranted {
 struct LeaseEnded {
   LeaseToken lease = 0;
   std::string holder;
-  AxisSet axes;
+  Scope scope;
   LeaseEnding::Why why = LeaseEnding::Why::released;
 };
 
 // A stop holds this caller back from now on.
 struct Latched {
   std::string who;
-  AxisSet axes;
+  Scope scope;
 };
 
 // This caller may move the axes again.
 struct Rearmed {
   std::string who;
-  AxisSet axes;
+  Scope scope;
 };
 
 using LeaseEvent = std::variant<LeaseGranted, LeaseEnded, Latched, Rearmed>;

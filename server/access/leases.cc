@@ -12,8 +12,7 @@
 namespace axisgate::server {
 namespace {
 
-using stage::to_string;
-using stage::Use;
+using use::Use;
 
 }  // namespace
 
@@ -44,7 +43,7 @@ bool Leases::runs(LeaseToken token) const {
 std::uint64_t Leases::acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after,
                               TimePoint now, OnLease answer) {
   expire(now);
-  const auto problem = in_the_way(terms.axes, now);
+  const auto problem = in_the_way(terms.scope, now);
   if (!wait && problem) {
     answer(tl::unexpected(*problem));
     return 0;
@@ -82,7 +81,7 @@ void Leases::lost(LeaseToken token, TimePoint now) {
   const auto held = find_held(token, now);
   if (!held || (*held)->lease.terms.at_loss == AtLoss::finish) return;
   const Lease& lease = (*held)->lease;
-  if (runs(token)) order_stop(lease.terms.axes, lease.holder);
+  if (runs(token)) order_stop(lease.terms.scope, lease.holder);
   if (lease.terms.at_loss == AtLoss::stop_and_release) {
     end_lease(**held, {LeaseEnding::Why::cut_off}, false, now);
   }
@@ -114,12 +113,12 @@ Result<void> Leases::release(LeaseToken token, TimePoint now) {
 Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoint now) {
   const auto held = find_held(token, now);
   if (!held) return tl::unexpected(held.error());
-  const AxisSet axes = (*held)->lease.terms.axes;
+  const Scope scope = (*held)->lease.terms.scope;
   const auto next = std::ranges::find_if(waiting_, [&](const Waiting& waiting) {
-    return waiting.lease.holder == to && axes.contains(waiting.lease.terms.axes);
+    return waiting.lease.holder == to && scope.contains(waiting.lease.terms.scope);
   });
   if (next == waiting_.end()) {
-    return fail(Reason::not_found, fmt::format("nobody named \"{}\" waits for {} alone", to, to_string(axes)),
+    return fail(Reason::not_found, fmt::format("nobody named \"{}\" waits for {} alone", to, to_string(scope)),
                 "`axisctl lease list` shows who waits");
   }
   if (runs(token)) {
@@ -137,11 +136,11 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
 void Leases::take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer) {
   expire(now);
   for (Held& held : held_) {
-    if (!held.lease.terms.axes.touches(terms.axes)) continue;
+    if (!held.lease.terms.scope.touches(terms.scope)) continue;
     end_lease(held, {LeaseEnding::Why::taken_over, holder}, false, now);
   }
-  for (auto& [id, running] : running_) running.revoked = running.revoked || running.use.axes.touches(terms.axes);
-  order_stop(terms.axes, holder);
+  for (auto& [id, running] : running_) running.revoked = running.revoked || running.use.scope.touches(terms.scope);
+  order_stop(terms.scope, holder);
   waiting_.push_front({{++last_waiting_, holder, std::move(terms), now, 1, {}},
                        TimePoint::max(),
                        std::move(answer),
@@ -172,37 +171,37 @@ std::vector<WaitingLease> Leases::waiting(TimePoint now) const {
 
 // Returns nullopt if the holder, or a caller ahead in the queue, gave no duration.
 std::optional<Duration> Leases::expected_wait(std::size_t place, TimePoint now) const {
-  const AxisSet axes = waiting_[place].lease.terms.axes;
+  const Scope scope = waiting_[place].lease.terms.scope;
   Duration wait{};
   for (const Held& held : held_) {
-    if (!held.lease.terms.axes.touches(axes)) continue;
+    if (!held.lease.terms.scope.touches(scope)) continue;
     if (!held.lease.terms.expected_use) return {};
     wait = std::max(wait, held.lease.since + *held.lease.terms.expected_use - now);
   }
   for (std::size_t i = 0; i < place; ++i) {
     const LeaseTerms& terms = waiting_[i].lease.terms;
-    if (!terms.axes.touches(axes)) continue;
+    if (!terms.scope.touches(scope)) continue;
     if (!terms.expected_use) return {};
     wait += *terms.expected_use;
   }
   return wait;
 }
 
-std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
+std::optional<Problem> Leases::held_problem(Scope scope, TimePoint now) const {
   const auto reported = [&](const LeaseTerms& terms, const std::string& who, std::string_view does, TimePoint since) {
     const std::string purpose = terms.purpose.empty() ? "" : fmt::format(" (\"{}\")", terms.purpose);
-    return Problem{
-        .reason = Reason::lease_held,
-        .message = fmt::format("{} {} {} for {}{}", who, does, to_string(terms.axes), for_people(now - since), purpose),
-        .hint = "to wait, add --wait SECONDS; or ask the holder to hand over"};
+    return Problem{.reason = Reason::lease_held,
+                   .message = fmt::format("{} {} {} for {}{}", who, does, to_string(terms.scope),
+                                          for_people(now - since), purpose),
+                   .hint = "to wait, add --wait SECONDS; or ask the holder to hand over"};
   };
   for (const Held& held : held_) {
-    if (held.lease.terms.axes.touches(axes)) {
+    if (held.lease.terms.scope.touches(scope)) {
       return reported(held.lease.terms, held.lease.holder, "has held", held.lease.since);
     }
   }
   for (const Waiting& waiting : waiting_) {
-    if (waiting.lease.terms.axes.touches(axes)) {
+    if (waiting.lease.terms.scope.touches(scope)) {
       return reported(waiting.lease.terms, waiting.lease.holder, "has waited for", waiting.lease.since);
     }
   }
@@ -210,10 +209,10 @@ std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
 }
 
 // Returns the obstacle that prevents the grant of a lease.
-std::optional<Problem> Leases::in_the_way(AxisSet axes, TimePoint now) const {
-  if (auto held = held_problem(axes, now)) return held;
+std::optional<Problem> Leases::in_the_way(Scope scope, TimePoint now) const {
+  if (auto held = held_problem(scope, now)) return held;
   for (const auto& [id, running] : running_) {
-    if (!running.use.axes.touches(axes)) continue;
+    if (!running.use.scope.touches(scope)) continue;
     return Problem{.reason = Reason::lease_held,
                    .message = text_of(running.occupation, now),
                    .hint = "to wait until it has ended, add --wait SECONDS; or stop it"};
@@ -221,17 +220,17 @@ std::optional<Problem> Leases::in_the_way(AxisSet axes, TimePoint now) const {
   return {};
 }
 
-void Leases::begin(const Use& use, stage::Occupation occupation, TimePoint) {
-  running_[use.motion] = {use, std::move(occupation), false};
+void Leases::begin(const Use& use, use::Occupation occupation, TimePoint) {
+  running_[use.activity] = {use, std::move(occupation), false};
 }
 
-void Leases::due(MotionId motion, TimePoint over) {
-  const auto found = running_.find(motion);
+void Leases::due(ActivityId activity, TimePoint over) {
+  const auto found = running_.find(activity);
   if (found != running_.end()) found->second.occupation.due = over;
 }
 
-void Leases::end(MotionId motion, TimePoint now) {
-  const auto found = running_.find(motion);
+void Leases::end(ActivityId activity, TimePoint now) {
+  const auto found = running_.find(activity);
   if (found == running_.end()) return;
   note_mover(std::move(found->second.use), now);
   running_.erase(found);
@@ -249,7 +248,7 @@ void Leases::end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint
   Lease& lease = held.lease;
   ended_.push_back({lease.token, ending});
   if (ended_.size() > kEndedKept) ended_.pop_front();
-  if (!lease.ending) report(LeaseEnded{lease.token, lease.holder, lease.terms.axes, ending.why}, now);
+  if (!lease.ending) report(LeaseEnded{lease.token, lease.holder, lease.terms.scope, ending.why}, now);
   lease.ending = std::move(ending);
   if (lease.latch && !is_certainly(lease.holder, lease.latch->by)) hold_back(lease.holder, *lease.latch);
   held.continues = continues;
@@ -259,11 +258,11 @@ void Leases::end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint
 void Leases::end_unkept(Held& held, LeaseEnding ending, TimePoint now) {
   const Lease& lease = held.lease;
   const bool finishes = lease.terms.at_loss == AtLoss::finish;
-  if (!finishes && runs(lease.token)) order_stop(lease.terms.axes, lease.holder);
+  if (!finishes && runs(lease.token)) order_stop(lease.terms.scope, lease.holder);
   end_lease(held, std::move(ending), finishes, now);
 }
 
-void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.push_back({++last_order_, axes, who}); }
+void Leases::order_stop(Scope scope, const std::string& who) { orders_.stops.push_back({++last_order_, scope, who}); }
 
 void Leases::expire(TimePoint now) {
   for (Held& held : held_) {
@@ -281,7 +280,7 @@ void Leases::expire(TimePoint now) {
     waiting = waiting_.erase(waiting);
   }
   for (const Waiting& waiting : late) {
-    const auto problem = in_the_way(waiting.lease.terms.axes, now);
+    const auto problem = in_the_way(waiting.lease.terms.scope, now);
     waiting.answer(fail(Reason::deadline_passed, "the lease was not free in the time allowed" +
                                                      (problem ? ": " + problem->message : std::string())));
   }
@@ -307,19 +306,19 @@ bool Leases::is_over(Held& held) {
   return held.settings == Settings::untouched;
 }
 
-AxisSet Leases::taken() const {
-  AxisSet axes;
-  for (const Held& held : held_) axes = axes | held.lease.terms.axes;
-  for (const auto& [id, running] : running_) axes = axes | running.use.axes;
-  return axes;
+Scope Leases::taken() const {
+  Scope scope;
+  for (const Held& held : held_) scope = scope | held.lease.terms.scope;
+  for (const auto& [id, running] : running_) scope = scope | running.use.scope;
+  return scope;
 }
 
 // Grants a single lease, because its answer may call acquire().
 bool Leases::grant(TimePoint now) {
-  AxisSet blocked = taken();
+  Scope blocked = taken();
   for (auto waiting = waiting_.begin(); waiting != waiting_.end(); ++waiting) {
-    if (waiting->order != 0 || blocked.touches(waiting->lease.terms.axes)) {
-      blocked = blocked | waiting->lease.terms.axes;
+    if (waiting->order != 0 || blocked.touches(waiting->lease.terms.scope)) {
+      blocked = blocked | waiting->lease.terms.scope;
       continue;
     }
     const Waiting next = std::move(*waiting);
@@ -349,7 +348,7 @@ void Leases::settings_restored(LeaseToken lease, TimePoint now) {
   settle(now);
 }
 
-stage::Orders Leases::advance(TimePoint now) {
+use::Orders Leases::advance(TimePoint now) {
   expire(now);
   settle(now);
   return std::exchange(orders_, {});

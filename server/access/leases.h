@@ -15,16 +15,16 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 #include "server/access/lease.h"
 #include "server/access/lease_tokens.h"
 
 namespace axisgate::server {
 
-using stage::MotionId;
+using use::ActivityId;
 
 // Not thread safe: lives on its device's strand. Stops nothing by itself: advance() returns the stops to be sent.
-class Leases : public stage::Permission {
+class Leases : public use::Permission {
  public:
   static constexpr std::size_t kWaitingMax = 256;
 
@@ -73,14 +73,14 @@ class Leases : public stage::Permission {
   // Called with each grant, end, latch and rearm, in their order. Must not call back.
   std::function<void(const LeaseEvent& event, TimePoint now)> on_event;
 
-  Result<void> authorize(const stage::Use& use, TimePoint now) override;
-  void begin(const stage::Use& use, stage::Occupation occupation, TimePoint now) override;
-  void due(MotionId motion, TimePoint over) override;
-  void end(MotionId motion, TimePoint now) override;
-  void stop_asked(const stage::Use& stop, const std::vector<stage::Use>& waiting, TimePoint now) override;
+  Result<void> authorize(const use::Use& use, TimePoint now) override;
+  void begin(const use::Use& use, use::Occupation occupation, TimePoint now) override;
+  void due(ActivityId activity, TimePoint over) override;
+  void end(ActivityId activity, TimePoint now) override;
+  void stop_asked(const use::Use& stop, const std::vector<use::Use>& waiting, TimePoint now) override;
   void device_restarted(TimePoint now) override;
   void settings_changed(LeaseToken lease) override;
-  stage::Orders advance(TimePoint now) override;
+  use::Orders advance(TimePoint now) override;
   void stopped(std::uint64_t order, TimePoint now) override;
   void settings_restored(LeaseToken lease, TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
@@ -100,34 +100,34 @@ class Leases : public stage::Permission {
     bool takes_over = false;
   };
   struct Running {
-    stage::Use use;
-    stage::Occupation occupation;
+    use::Use use;
+    use::Occupation occupation;
     bool revoked = false;  // taken over: not a byte more may be sent
   };
   struct Mover {  // caller that has recently moved something
-    stage::Use use;
+    use::Use use;
     TimePoint until{};
   };
 
   Held* find(LeaseToken token);
   Result<Held*> find_held(LeaseToken token, TimePoint now);
   Problem lost_problem(LeaseToken token) const;
-  Result<void> authorize_leased(const stage::Use& use, TimePoint now);
-  Result<void> may_borrow(const stage::Use& use, TimePoint now);
-  void note_mover(stage::Use use, TimePoint now);
+  Result<void> authorize_leased(const use::Use& use, TimePoint now);
+  Result<void> may_borrow(const use::Use& use, TimePoint now);
+  void note_mover(use::Use use, TimePoint now);
   bool hold_back(const std::string& who, const Latch& latch);
-  std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
-  std::optional<Problem> in_the_way(AxisSet axes, TimePoint now) const;
+  std::optional<Problem> held_problem(Scope scope, TimePoint now) const;
+  std::optional<Problem> in_the_way(Scope scope, TimePoint now) const;
   bool runs(LeaseToken token) const;
   void end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint now);
   void end_unkept(Held& held, LeaseEnding ending, TimePoint now);
-  void order_stop(AxisSet axes, const std::string& who);
+  void order_stop(Scope scope, const std::string& who);
   void expire(TimePoint now);
   void settle(TimePoint now);
   bool drop_ended();
   bool is_over(Held& held);
   bool grant(TimePoint now);
-  AxisSet taken() const;
+  Scope taken() const;
   Lease start(const Waiting& waiting, TimePoint now);
   std::optional<Duration> expected_wait(std::size_t place, TimePoint now) const;
   void changed(TimePoint now) const {
@@ -144,7 +144,7 @@ class Leases : public stage::Permission {
   LeaseTokens& tokens_;
   std::vector<Held> held_;
   std::deque<Waiting> waiting_;
-  std::map<MotionId, Running> running_;
+  std::map<ActivityId, Running> running_;
   std::vector<Mover> movers_;
   std::vector<HeldBack> held_back_;
   struct Ended {
@@ -152,7 +152,7 @@ class Leases : public stage::Permission {
     LeaseEnding ending;
   };
   std::deque<Ended> ended_;
-  stage::Orders orders_;
+  use::Orders orders_;
   std::uint64_t last_waiting_ = 0, last_order_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "device/link/runner.h"
 #include "device/stage/recording/recording.h"
+#include "device/use/scope.h"
 #include "server/access/leases.h"
 #include "server/devices/line.h"
 #include "server/events/newest.h"
@@ -35,6 +36,8 @@ class Device {
   // These members may be called from any thread.
   const std::string& name() const { return name_; }
   virtual std::string_view kind_name() const = 0;  // value of `kind` in the configuration
+  // Returns the scope of a lease that names no axes.
+  virtual use::Scope whole() const = 0;
   const std::string& line_description() const { return line_->description(); }
   Line& line() { return *line_; }
   Newest<LeaseBoard>& newest_leases() { return newest_leases_; }

@@ -50,6 +50,7 @@ class Mill final : public Device, private jobs::MachineEvents {
 
   // These members may be called from any thread.
   std::string_view kind_name() const override { return config_.kind->name(); }
+  use::Scope whole() const override { return use::Scope::whole_device(); }
   const MillConfig& config() const { return config_; }
   Newest<MillNow>& newest() { return newest_; }
   spool::Spool& spool() const { return spool_; }

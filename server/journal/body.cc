@@ -14,6 +14,10 @@ Json axes_of(stage::AxisSet axes) {
   return list;
 }
 
+Json scope_of(use::Scope scope) {
+  return scope.is_whole_device() ? Json("device") : axes_of(stage::AxisSet::in(scope));
+}
+
 Entry entry_of(Noted noted, std::string device, TimePoint now) {
   return {.kind = noted.kind,
           .time = to_wall(now),

@@ -14,6 +14,8 @@ namespace axisgate::server::journal {
 std::string json_text(const nlohmann::json& json);
 
 nlohmann::json axes_of(stage::AxisSet axes);
+// Returns the axes, or "device" for a whole device.
+nlohmann::json scope_of(use::Scope scope);
 
 // A Noted is an entry that has no device and no time yet.
 struct Noted {

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 Noted noted(const LeaseGranted& granted) {
   const auto live = std::chrono::duration_cast<std::chrono::milliseconds>(granted.terms.time_to_live);
   Json body{{"lease", granted.lease},
-            {"axes", axes_of(granted.terms.axes)},
+            {"axes", scope_of(granted.terms.scope)},
             {"time_to_live_ms", live.count()},
             {"at_loss", name(granted.terms.at_loss)}};
   if (granted.by_take_over) body["taken_over"] = true;
@@ -23,13 +23,13 @@ Noted noted(const LeaseGranted& granted) {
 
 Noted noted(const LeaseEnded& ended) {
   return {EntryKind::lease_ended,
-          {{"lease", ended.lease}, {"axes", axes_of(ended.axes)}, {"why", name(ended.why)}},
+          {{"lease", ended.lease}, {"axes", scope_of(ended.scope)}, {"why", name(ended.why)}},
           ended.holder};
 }
 
-Noted noted(const Latched& latched) { return {EntryKind::latched, {{"axes", axes_of(latched.axes)}}, latched.who}; }
+Noted noted(const Latched& latched) { return {EntryKind::latched, {{"axes", scope_of(latched.scope)}}, latched.who}; }
 
-Noted noted(const Rearmed& rearmed) { return {EntryKind::rearmed, {{"axes", axes_of(rearmed.axes)}}, rearmed.who}; }
+Noted noted(const Rearmed& rearmed) { return {EntryKind::rearmed, {{"axes", scope_of(rearmed.scope)}}, rearmed.who}; }
 
 }  // namespace
 

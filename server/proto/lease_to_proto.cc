@@ -13,9 +13,10 @@ using server::AtLoss;
 
 google::protobuf::Timestamp to_stamp(TimePoint time) { return to_proto(server::to_wall(time)); }
 
-template <class Repeated>
-void add_axes(Repeated& axes, stage::AxisSet set) {
-  for (const int axis : set.list()) axes.Add(axis);
+template <class Message>
+void set_scope(use::Scope scope, Message& message) {
+  for (const int axis : scope.list()) message.add_axes(axis);
+  message.set_whole_device(scope.is_whole_device());
 }
 
 AtLoss to_at_loss(v1::AtLoss at_loss) {
@@ -49,7 +50,7 @@ Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms) {
 v1::Lease to_proto(const server::Lease& lease) {
   v1::Lease proto;
   proto.set_token(lease.sealed_token);
-  add_axes(*proto.mutable_axes(), lease.terms.axes);
+  set_scope(lease.terms.scope, proto);
   proto.set_holder(lease.holder);
   *proto.mutable_since_time() = to_stamp(lease.since);
   *proto.mutable_expire_time() = to_stamp(lease.expires);
@@ -63,9 +64,20 @@ v1::Lease to_proto(const server::Lease& lease) {
 
 v1::Latch to_proto(const server::Latch& latch) {
   v1::Latch proto;
-  add_axes(*proto.mutable_axes(), latch.axes);
+  set_scope(latch.scope, proto);
   proto.set_by(latch.by);
   *proto.mutable_time() = to_stamp(latch.at);
+  return proto;
+}
+
+v1::RearmResponse to_proto(const std::vector<server::Latch>& lifted) {
+  v1::RearmResponse proto;
+  use::Scope scope;
+  for (const server::Latch& latch : lifted) {
+    scope = scope | latch.scope;
+    *proto.add_latches() = to_proto(latch);
+  }
+  set_scope(scope, proto);
   return proto;
 }
 
@@ -78,7 +90,7 @@ v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board) {
   for (const server::WaitingLease& waiting : board.waiting) {
     v1::WaitingLease& one = *proto.add_waiting();
     one.set_place(waiting.place);
-    add_axes(*one.mutable_axes(), waiting.terms.axes);
+    set_scope(waiting.terms.scope, one);
     one.set_holder(waiting.holder);
     *one.mutable_since_time() = to_stamp(waiting.since);
     one.set_purpose(waiting.terms.purpose);

@@ -1,6 +1,8 @@
 // Conversion of leases from and to callers' messages.
 #pragma once
 
+#include <vector>
+
 #include "axisgate/v1/control.pb.h"
 #include "device/core/problem.h"
 #include "server/access/leases.h"
@@ -18,6 +20,8 @@ v1::Lease to_proto(const server::Lease& lease);
 v1::Latch to_proto(const server::Latch& latch);
 
 // Leaves out the tokens.
+v1::RearmResponse to_proto(const std::vector<server::Latch>& lifted);
+
 v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board);
 
 }  // namespace axisgate::proto

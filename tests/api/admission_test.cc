@@ -12,7 +12,7 @@ using std::chrono::seconds;
 
 class AdmissionTest : public ::testing::Test {
  protected:
-  Result<stage::RequestContext> context(RequestKind kind) const {
+  Result<use::RequestContext> context(RequestKind kind) const {
     return world_.api->admission.context_of(kind, call_, {kAnna, server::Role::operator_});
   }
   Duration validity(RequestKind kind) const { return context(kind)->not_after - monotonic_now(); }

@@ -232,7 +232,7 @@ Reason ask_positions(World& world, RequestKind kind, const Call& call) {
 
 Reason ask_devices(World& world, RequestKind kind, const Call& call) {
   const Devices& devices = world.api->devices;
-  Asking<StateNow> state;
+  Asking<DeviceNow> state;
   Asking<void> done;
   Asking<std::string> text;
   switch (kind) {

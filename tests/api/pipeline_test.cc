@@ -181,7 +181,7 @@ TEST_F(SlowWorld, AnothersStopLatches) {
   world_.api->leases.rearm(World::by(kAnna), kDevice, lifted.answer());
   const auto latches = lifted.get();
   ASSERT_EQ(latches.value_or(std::vector<server::Latch>()).size(), 1u);
-  EXPECT_EQ(latches->front().axes, stage::AxisSet::of(1));
+  EXPECT_EQ(latches->front().scope, stage::AxisSet::of(1));
   EXPECT_EQ(latches->front().by, "unix olaf");
   EXPECT_EQ(world_.reason_of_move(World::by(kAnna)), Reason::unspecified);
 }

@@ -80,7 +80,7 @@ class AnySetting final : public stage::Kind {
   std::string_view name() const override { return "any"; }
   std::span<const stage::KindSetting> settings() const override { return {}; }
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile&, const Words&, ByteLink&,
-                                                          stage::EventSink&, stage::Permission&) const override {
+                                                          stage::EventSink&, use::Permission&) const override {
     return nullptr;
   }
   Result<void> check_lines(const std::vector<std::string>&) const override { return {}; }

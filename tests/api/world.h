@@ -178,7 +178,7 @@ class World {
     // The callback may run after this function has returned, when another lease ends.
     const auto token = std::make_shared<std::atomic<server::LeaseToken>>(0);
     on_strand([&](stage::StageController&, TimePoint now) {
-      device().leases().acquire({.axes = stage::AxisSet::all()}, who, false, now, now,
+      device().leases().acquire({.scope = stage::AxisSet::all()}, who, false, now, now,
                                 [token](const Result<server::Lease>& lease) { *token = lease ? lease->token : 0; });
     });
     return *token;

@@ -11,13 +11,22 @@
 #include <vector>
 
 #include "device/stage/envelope.h"
-#include "device/stage/permission.h"
 #include "device/stage/stage_controller.h"
+#include "device/use/permission.h"
+#include "device/use/request_context.h"
 #include "tests/double/wire.h"
 
 namespace axisgate::rotor {
 
 using namespace stage;  // NOLINT(google-build-using-namespace)
+using use::EndedLease;
+using use::everybody_may;
+using use::Occupation;
+using use::Orders;
+using use::Permission;
+using use::RequestContext;
+using use::StopOrder;
+using use::Use;
 
 inline constexpr AxisSet kAxis = AxisSet::of(1);
 inline constexpr std::size_t kWaitingMax = 100;

@@ -23,7 +23,7 @@ class Rotor final : public stage::Kind {
 
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words& settings,
                                                           ByteLink& link, stage::EventSink& events,
-                                                          stage::Permission& permission) const override {
+                                                          use::Permission& permission) const override {
     const auto direction = settings.find("direction");
     const bool reversed = direction != settings.end() && direction->second == "reversed";
     return std::make_unique<Controller>(profile, reversed, link, events, permission);

@@ -31,7 +31,7 @@ class Porter final : public Permission {
     if (!refusing) return {};
     return fail(Reason::lease_held, "somebody else has it");
   }
-  void begin(const Use& use, Occupation, TimePoint) override { begun.push_back(use.motion); }
+  void begin(const Use& use, Occupation, TimePoint) override { begun.push_back(use.activity); }
   void due(MotionId, TimePoint) override {}
   void end(MotionId motion, TimePoint) override { ended.push_back(motion); }
   void stop_asked(const Use& stop, const std::vector<Use>&, TimePoint) override { stops.push_back(stop.who); }

@@ -239,7 +239,7 @@ void Controller::look_after_stops() {
 void Controller::carry_out_orders() {
   const Orders orders = permission_.advance(now_);
   for (const StopOrder& order : orders.stops) {
-    stop_rotor(order.axes, false, "the gateway on behalf of " + order.who,
+    stop_rotor(AxisSet::in(order.scope), false, "the gateway on behalf of " + order.who,
                [this, id = order.id](const StopReport&) { permission_.stopped(id, now_); });
   }
   for (const EndedLease& lease : orders.restoring) permission_.settings_restored(lease.token, now_);

@@ -57,7 +57,8 @@ class EchoMachineTest : public testing::Test {
   std::shared_ptr<const server::MillNow> newest() { return machine().newest().get().value; }
 
   Result<CurrentJob> send(const std::string& text) {
-    auto upload = api_->mill.sending.send(call_, kEcho, {.title = "text", .origin = "", .parts = {{"T1"}}, .accepted_warnings = {}});
+    auto upload = api_->mill.sending.send(call_, kEcho,
+                                          {.title = "text", .origin = "", .parts = {{"T1"}}, .accepted_warnings = {}});
     if (!upload) return tl::unexpected(upload.error());
     if (const Result<void> taken = (*upload)->append(text); !taken) return tl::unexpected(taken.error());
     Asking<CurrentJob> asking;

@@ -5,7 +5,7 @@
 namespace axisgate::echo {
 
 EchoMachine::EchoMachine(const jobs::MachineSettings& settings, FlowLink& line, jobs::MachineEvents& events,
-                         stage::Permission& permission)
+                         use::Permission& permission)
     : line_(line),
       events_(events),
       rights_(permission),
@@ -30,7 +30,7 @@ Result<void> EchoMachine::check_startable(jobs::JobNumber number, TimePoint now)
 }
 
 Result<void> EchoMachine::start(jobs::JobNumber number, std::shared_ptr<const jobs::PreparedJob> prepared,
-                                const stage::RequestContext& by, TimePoint now) {
+                                const use::RequestContext& by, TimePoint now) {
   const Result<void> can = check_startable(number, now).and_then([&] { return rights_.authorize(by, number, now); });
   if (!can) return can;
   jobs::Job& job = queue_.at(number);
@@ -49,7 +49,7 @@ Result<void> EchoMachine::pause(bool raise, TimePoint now) {
   return {};
 }
 
-Result<void> EchoMachine::resume(const stage::RequestContext& by, TimePoint now) {
+Result<void> EchoMachine::resume(const use::RequestContext& by, TimePoint now) {
   if (!run_ || !run_->paused) return fail(Reason::wrong_mode, "no job is paused", "start one");
   if (const Result<void> can = rights_.authorize(by, run_->number, now); !can) return can;
   run_->paused = false;
@@ -70,7 +70,7 @@ Result<void> EchoMachine::choose_rest(jobs::JobNumber number, const jobs::JobRes
   return {};
 }
 
-bool EchoMachine::abort(const stage::RequestContext& by, TimePoint now) {
+bool EchoMachine::abort(const use::RequestContext& by, TimePoint now) {
   rights_.stop_asked(by, now);
   return abort(by.who, now);
 }
@@ -95,7 +95,7 @@ Result<void> EchoMachine::done(jobs::JobNumber job, std::string_view by, TimePoi
   return queue_.request(job, jobs::JobEvent::done, by, now);
 }
 
-Result<Duration> EchoMachine::operate(const jobs::HandAct&, const stage::RequestContext&, TimePoint) {
+Result<Duration> EchoMachine::operate(const jobs::HandAct&, const use::RequestContext&, TimePoint) {
   return fail(Reason::invalid_request, "an echo machine does nothing by hand", "send it a job");
 }
 

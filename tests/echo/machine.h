@@ -20,7 +20,7 @@ namespace axisgate::echo {
 class EchoMachine final : public jobs::Machine, private Violations {
  public:
   EchoMachine(const jobs::MachineSettings& settings, FlowLink& line, jobs::MachineEvents& events,
-              stage::Permission& permission);
+              use::Permission& permission);
 
   void inherit(jobs::Job job) override { queue_.inherit(std::move(job)); }
   void inherit_left(const jobs::Job& last) override { left_.inherit(last); }
@@ -31,19 +31,19 @@ class EchoMachine final : public jobs::Machine, private Violations {
   Result<void> confirm(jobs::JobNumber job, const jobs::JobSetup& seen, std::string by, TimePoint now) override;
   Result<void> check_startable(jobs::JobNumber job, TimePoint now) override;
   Result<void> start(jobs::JobNumber job, std::shared_ptr<const jobs::PreparedJob> prepared,
-                     const stage::RequestContext& by, TimePoint now) override;
+                     const use::RequestContext& by, TimePoint now) override;
   Result<void> pause(bool raise, TimePoint now) override;
-  Result<void> resume(const stage::RequestContext& by, TimePoint now) override;
+  Result<void> resume(const use::RequestContext& by, TimePoint now) override;
   Result<void> choose_rest(jobs::JobNumber job, const jobs::JobRest& rest, std::string_view by, TimePoint now) override;
   void plan_rest(const jobs::Job&) override {}
-  bool abort(const stage::RequestContext& by, TimePoint now) override;
+  bool abort(const use::RequestContext& by, TimePoint now) override;
   bool abort(std::string_view by, TimePoint now) override;
   Result<void> cancel(jobs::JobNumber job, std::string_view by, TimePoint now) override;
   Result<void> done(jobs::JobNumber job, std::string_view by, TimePoint now) override;
   Result<void> move_first(jobs::JobNumber job, jobs::Overtaken overtaken, std::string_view by, TimePoint now) override {
     return queue_.move_first(job, overtaken, by, now);
   }
-  Result<Duration> operate(const jobs::HandAct& act, const stage::RequestContext& by, TimePoint now) override;
+  Result<Duration> operate(const jobs::HandAct& act, const use::RequestContext& by, TimePoint now) override;
 
   const std::vector<jobs::Job>& jobs() const override { return queue_.jobs(); }
   std::optional<jobs::RunningJob> running(TimePoint now) override;

@@ -59,8 +59,7 @@ Result<Duration> EchoModel::longest(const jobs::HandAct&, double) const {
 }
 
 std::unique_ptr<jobs::Machine> EchoModel::make_machine(const jobs::MachineSettings& settings, FlowLink& line,
-                                                       jobs::MachineEvents& events,
-                                                       stage::Permission& permission) const {
+                                                       jobs::MachineEvents& events, use::Permission& permission) const {
   return std::make_unique<EchoMachine>(settings, line, events, permission);
 }
 

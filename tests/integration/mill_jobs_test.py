@@ -312,6 +312,10 @@ class MillJobs(unittest.TestCase):
         leased = self.daemon.run("lease", "run", "--axes", "1", "--", BIN / "axisctl", "--target", self.daemon.socket,
                                  "lease", "list")
         self.assertRegex(leased.stdout, r"\Aaxis 1  held by ")
+        leased = self.daemon.run("--device", "mill", "lease", "run", "--", BIN / "axisctl", "--target",
+                                 self.daemon.socket, "--device", "mill", "lease", "list")
+        self.assertRegex(leased.stdout, r"\Athe whole device  held by ")
+        self.assertRegex(self.daemon.run("history", "--text", "whole").stdout, r"lease \d+ of .* over the whole device")
         refused = self.daemon.run("--device", "mill", "position")
         self.assertRegex(refused.stderr, r"INVALID_REQUEST: devices/mill is a mill: it has no axes to move")
         self.assertEqual(self.daemon.run("--device", "mill", "status").stdout,

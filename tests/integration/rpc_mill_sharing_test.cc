@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "axisgate/v1/control.grpc.pb.h"
+#include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "tests/integration/rpc_mill_fixture.h"
 
@@ -39,6 +40,58 @@ TEST_F(RpcMill, ALeaseKeepsOthersOutAndATakeOverAborts) {
   ASSERT_TRUE(control->TakeOverLease(&second, take, &taken).ok());
   EXPECT_THAT(watch_until([](const v1::Mill& it) { return !it.has_running(); }).jobs(), IsEmpty())
       << "it was granted when the job was ABORTED";
+}
+
+TEST_F(RpcMill, IsLeasedAsAWhole) {
+  const auto control = v1::ControlService::NewStub(channel_);
+  v1::AcquireLeaseRequest acquire;
+  acquire.set_device(kMill);
+  acquire.mutable_terms()->add_axes(1);
+  acquire.mutable_terms()->add_axes(2);
+  v1::AcquireLeaseResponse acquired;
+  grpc::ClientContext first;
+  limit(first);
+  const grpc::Status refused = control->AcquireLease(&first, acquire, &acquired);
+  EXPECT_EQ(refused.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THAT(refused.error_message(), HasSubstr("mill has no axes that could be leased one by one"));
+  acquire.mutable_terms()->clear_axes();
+  grpc::ClientContext second;
+  limit(second);
+  ASSERT_TRUE(control->AcquireLease(&second, acquire, &acquired).ok());
+  EXPECT_TRUE(acquired.lease().whole_device());
+  EXPECT_THAT(acquired.lease().axes(), IsEmpty());
+  grpc::ClientContext third;
+  limit(third);
+  const auto board = control->WatchLeases(&third, [] {
+    v1::WatchLeasesRequest request;
+    request.set_device(kMill);
+    return request;
+  }());
+  v1::WatchLeasesResponse seen;
+  ASSERT_TRUE(board->Read(&seen));
+  ASSERT_THAT(seen.leases(), SizeIs(1));
+  EXPECT_TRUE(seen.leases(0).whole_device());
+  third.TryCancel();
+}
+
+TEST_F(RpcMill, GetDeviceAnswersForAMill) {
+  const auto devices = v1::DeviceService::NewStub(channel_);
+  grpc::ClientContext listing;
+  limit(listing);
+  v1::ListDevicesResponse listed;
+  ASSERT_TRUE(devices->ListDevices(&listing, {}, &listed).ok());
+  ASSERT_THAT(listed.devices(), SizeIs(2));
+  for (const v1::Device& device : listed.devices()) {
+    grpc::ClientContext context;
+    limit(context);
+    v1::GetDeviceRequest request;
+    request.set_name(device.name());
+    v1::GetDeviceResponse got;
+    ASSERT_TRUE(devices->GetDevice(&context, request, &got).ok()) << device.name();
+    EXPECT_EQ(got.device().name(), device.name());
+    EXPECT_EQ(got.device().kind(), device.kind());
+    EXPECT_EQ(got.device().model(), device.model());
+  }
 }
 
 TEST_F(RpcMill, AStopOfAllDevicesIsTheAbort) {
@@ -100,7 +153,7 @@ TEST_F(RpcMill, AnAdministratorTakesTheWaitingJobsOfACallerOutOfTheQueue) {
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_NOT_FOUND) << "it runs";
 }
 
-// So that neither a kill nor the next job that is sent finds it there.
+// A kill, or the next job that is sent, then finds the new state.
 TEST_F(RpcMill, TheSpoolHasWhatBecameOfAJobBeforeTheAnswer) {
   const v1::Job first = sent(vectors(4)), second = sent(vectors(4));
   v1::MoveJobRequest move;

@@ -81,7 +81,7 @@ class BadLine : private jobs::MachineEvents {
   void about_to_write(jobs::JobNumber, const jobs::WrittenRange& sent) override { noted_ = sent.most; }
 
   static constexpr jobs::JobNumber kFirst = 1, kSecond = 2;
-  static inline const stage::RequestContext kOwner{.who = "unix anna"}, kAtMill{.who = "unix bert"};
+  static inline const use::RequestContext kOwner{.who = "unix anna"}, kAtMill{.who = "unix bert"};
 
   const std::uint64_t seed_;
   const Profile profile_ = test_profile();

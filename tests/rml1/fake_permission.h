@@ -8,27 +8,25 @@
 #include <utility>
 #include <vector>
 
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::rml1 {
 
-class FakePermission final : public stage::Permission {
+class FakePermission final : public use::Permission {
  public:
-  Result<void> authorize(const stage::Use& use, TimePoint) override {
+  Result<void> authorize(const use::Use& use, TimePoint) override {
     asked.push_back(use);
     return allowed ? Result<void>() : fail(Reason::lease_held, "unix carl has held the mill for 5 s");
   }
-  void begin(const stage::Use& use, stage::Occupation occupation, TimePoint) override {
-    users[use.motion] = occupation.before + ", " + occupation.by;
+  void begin(const use::Use& use, use::Occupation occupation, TimePoint) override {
+    users[use.activity] = occupation.before + ", " + occupation.by;
   }
-  void due(stage::MotionId, TimePoint) override {}
-  void end(stage::MotionId job, TimePoint) override { users.erase(job); }
-  void stop_asked(const stage::Use& stop, const std::vector<stage::Use>&, TimePoint) override {
-    stops.push_back(stop.who);
-  }
+  void due(use::ActivityId, TimePoint) override {}
+  void end(use::ActivityId job, TimePoint) override { users.erase(job); }
+  void stop_asked(const use::Use& stop, const std::vector<use::Use>&, TimePoint) override { stops.push_back(stop.who); }
   void device_restarted(TimePoint) override {}
   void settings_changed(std::uint64_t) override {}
-  stage::Orders advance(TimePoint) override { return std::exchange(orders, {}); }
+  use::Orders advance(TimePoint) override { return std::exchange(orders, {}); }
   void stopped(std::uint64_t order, TimePoint) override { answered.push_back(order); }
   void settings_restored(std::uint64_t, TimePoint) override {}
   std::optional<TimePoint> next_deadline() const override {
@@ -36,10 +34,10 @@ class FakePermission final : public stage::Permission {
   }
 
   bool allowed = true;
-  std::vector<stage::Use> asked;
-  std::map<stage::MotionId, std::string> users;
+  std::vector<use::Use> asked;
+  std::map<use::ActivityId, std::string> users;
   std::vector<std::string> stops;
-  stage::Orders orders;
+  use::Orders orders;
   std::vector<std::uint64_t> answered;
 };
 

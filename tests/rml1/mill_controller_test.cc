@@ -46,7 +46,7 @@ TEST_F(MillControllerTest, WhoMayNotUseTheMillStartsAndResumesNothing) {
   EXPECT_THAT(line_.writes, IsEmpty());
   EXPECT_EQ(state(1), confirmed) << "it can be started by who may";
   EXPECT_EQ(permission_.asked.back().lease, 9);
-  EXPECT_EQ(permission_.asked.back().axes, stage::AxisSet::all());
+  EXPECT_EQ(permission_.asked.back().scope, use::Scope::whole_device());
   permission_.allowed = true;
   ASSERT_TRUE(mill_.start(1, prepared(200), {.who = "unix anna"}, now_));
   ASSERT_TRUE(mill_.pause(false, now_));
@@ -66,7 +66,7 @@ TEST_F(MillControllerTest, AJobOccupiesTheMillUntilItHasEnded) {
 TEST_F(MillControllerTest, WhoLosesTheRightHasTheJobAborted) {
   add(1);
   run_job(1, 200);
-  permission_.orders.stops.push_back({7, stage::AxisSet::all(), "unix carl"});
+  permission_.orders.stops.push_back({7, use::Scope::whole_device(), "unix carl"});
   run_for(1s);
   EXPECT_EQ(state(1), aborted);
   EXPECT_EQ(by_[aborted], "unix carl");

@@ -331,8 +331,9 @@ TEST(HazardOfJogsEnd, H35_ItEndsWithTheLease) {
   World world(setup);
   ASSERT_TRUE(world.run_until_up());
   server::LeaseToken token = 0;
-  leases.acquire({.axes = AxisSet::of(1), .time_to_live = seconds(3), .at_loss = server::AtLoss::finish}, "anna", false,
-                 world.now(), world.now(), [&](const Result<server::Lease>& got) { token = got ? got->token : 0; });
+  leases.acquire({.scope = AxisSet::of(1), .time_to_live = seconds(3), .at_loss = server::AtLoss::finish}, "anna",
+                 false, world.now(), world.now(),
+                 [&](const Result<server::Lease>& got) { token = got ? got->token : 0; });
   RequestContext context = world.context("anna");
   context.lease = token;
   const MotionId id = world.controller().jog({{{1, 1, {}}}, context}, world.now(), [](const Result<Motion>&) {});

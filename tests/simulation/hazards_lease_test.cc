@@ -26,7 +26,7 @@ class HazardOfSharing : public testing::Test {
 
   LeaseToken lease(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
     LeaseToken token = 0;
-    leases.acquire({.axes = axes, .at_loss = at_loss}, holder, false, world.now(), world.now(),
+    leases.acquire({.scope = axes, .at_loss = at_loss}, holder, false, world.now(), world.now(),
                    [&](const Result<Lease>& got) { token = got ? got->token : 0; });
     EXPECT_NE(token, 0u);
     return token;
@@ -107,7 +107,7 @@ TEST_F(HazardOfSharing, H54_ATakeOverWaitsUntilTheAxesAreSeenStationary) {
     return Scripted{.drop = world.now() < back, .delay = {}, .instead = {}};
   });
   std::optional<bool> busy;
-  leases.take_over({.axes = kOne}, "chief", world.now(), [&](const Result<Lease>&) { busy = world.device().busy(1); });
+  leases.take_over({.scope = kOne}, "chief", world.now(), [&](const Result<Lease>&) { busy = world.device().busy(1); });
   world.run_for(seconds(14));
   EXPECT_FALSE(busy) << "granted while nobody knows what moves\n" << world.replay();
   EXPECT_TRUE(world.run_until([&] { return busy.has_value(); }, seconds(15))) << world.replay();

@@ -29,7 +29,7 @@ TEST_P(HazardOfHiddenMotion, NeedsTheRightToMove) {
   setup.permission = &leases;
   World world(setup);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  leases.acquire({.axes = AxisSet::of(1)}, "anna", false, world.now(), world.now(),
+  leases.acquire({.scope = AxisSet::of(1)}, "anna", false, world.now(), world.now(),
                  [](const Result<server::Lease>& got) { EXPECT_TRUE(got); });
   const std::size_t lines = world.wire().commands().size();
   EXPECT_THAT(execute(world, {GetParam()}), ElementsAre("LEASE_HELD"));

@@ -261,7 +261,7 @@ TEST(StopAndMotion, AgreeAThousandTimes) {
       const bool rests = !report.problem && report.axes.front().ready.value_or(false);
       bool granted = false;
       server::LeaseTerms terms;
-      terms.axes = AxisSet::all();
+      terms.scope = AxisSet::all();
       leases.acquire(terms, "carl", false, world.now(), world.now(), [&](const Result<server::Lease>& lease) {
         granted = lease.has_value();
         if (lease) (void)leases.release(lease->token, world.now());

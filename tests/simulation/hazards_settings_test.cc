@@ -21,7 +21,7 @@ class HazardOfSettings : public testing::Test {
 
   LeaseToken lease(const std::string& holder, AxisSet axes) {
     LeaseToken token = 0;
-    leases.acquire({.axes = axes}, holder, false, world.now(), world.now(),
+    leases.acquire({.scope = axes}, holder, false, world.now(), world.now(),
                    [&](const Result<Lease>& got) { token = got ? got->token : 0; });
     EXPECT_NE(token, 0u);
     return token;
@@ -64,7 +64,7 @@ TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLease) {
   world.run_for(seconds(2));
   ASSERT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
   std::optional<std::int64_t> found;
-  leases.acquire({.axes = kOne}, "bert", true, world.now() + seconds(60), world.now(),
+  leases.acquire({.scope = kOne}, "bert", true, world.now() + seconds(60), world.now(),
                  [&](const Result<Lease>& got) { found = got ? world.device().maximum_speed(1) : 0; });
   world.run_for(seconds(20));
   EXPECT_EQ(found, 50'000) << world.replay();
@@ -113,7 +113,7 @@ TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
   World world(setup);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   LeaseToken token = 0;
-  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+  leases.acquire({.scope = kOne}, "anna", false, world.now(), world.now(),
                  [&](const Result<Lease>& got) { token = got ? got->token : 0; });
   PathRequest path;
   path.context = world.context("anna");
@@ -136,7 +136,7 @@ TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
   World world(setup);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   LeaseToken token = 0;
-  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+  leases.acquire({.scope = kOne}, "anna", false, world.now(), world.now(),
                  [&](const Result<Lease>& got) { token = got ? got->token : 0; });
   RequestContext asked = world.context("anna");
   asked.lease = token;
@@ -182,7 +182,7 @@ TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
   EXPECT_EQ(world.controller().state().outputs, 1);
   EXPECT_EQ(world.controller().state().trigger, (Trigger{Trigger::Target::timer, 0, 100}));
   std::optional<std::string> found;
-  leases.acquire({.axes = kOne}, "bert", true, world.now() + seconds(60), world.now(), [&](const Result<Lease>& got) {
+  leases.acquire({.scope = kOne}, "bert", true, world.now() + seconds(60), world.now(), [&](const Result<Lease>& got) {
     found = got ? fmt::format("{} {}", world.device().outputs(), world.device().trigger()) : "refused";
   });
   world.run_for(seconds(20));
@@ -245,7 +245,7 @@ TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
   });
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   LeaseToken token = 0;
-  leases.acquire({.axes = AxisSet::of(2)}, "anna", false, world.now(), world.now(),
+  leases.acquire({.scope = AxisSet::of(2)}, "anna", false, world.now(), world.now(),
                  [&](const Result<Lease>& got) { token = got ? got->token : 0; });
   RequestContext asked = world.context("anna");
   asked.lease = token;

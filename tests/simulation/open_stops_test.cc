@@ -79,7 +79,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
     RequestContext context = world_.context("anna");
     if (way() == Way::lease_lost || way() == Way::taken_over) {
       server::LeaseTerms terms;
-      terms.axes = axes();
+      terms.scope = axes();
       daemon_->leases().acquire(terms, "anna", false, world_.now(), world_.now(),
                                 [&](const Result<server::Lease>& lease) { context.lease = lease->token; });
     }
@@ -116,7 +116,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
         return controller.advance(world_.now());
       case Way::taken_over: {
         server::LeaseTerms terms;
-        terms.axes = axes();
+        terms.scope = axes();
         daemon_->leases().take_over(terms, "admin", world_.now(), [](const Result<server::Lease>&) {});
         return controller.advance(world_.now());
       }

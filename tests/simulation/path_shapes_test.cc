@@ -304,7 +304,7 @@ TEST(PathRests, InputsStartNothingOnceTheLeaseHasEnded) {
   World world(setup);
   ASSERT_TRUE(world.run_until_up());
   std::uint64_t token = 0;
-  leases.acquire({.axes = AxisSet::of(1), .at_loss = server::AtLoss::finish}, "anna", false, world.now(), world.now(),
+  leases.acquire({.scope = AxisSet::of(1), .at_loss = server::AtLoss::finish}, "anna", false, world.now(), world.now(),
                  [&](const Result<server::Lease>& got) {
                    ASSERT_TRUE(got);
                    token = got->token;

@@ -152,7 +152,7 @@ void Retries::use_leases(User& user) {
     return;
   }
   server::LeaseTerms terms;
-  terms.axes = AxisSet::of(static_cast<int>(random.between(1, 3)));
+  terms.scope = AxisSet::of(static_cast<int>(random.between(1, 3)));
   terms.time_to_live = seconds(random.between(1, 6));
   daemon_->leases().acquire(terms, user.name, false, world_.now(), world_.now(),
                             [this, &user](const Result<server::Lease>& lease) {

@@ -61,7 +61,7 @@ class Retries {
   // One attempt at a request.
   struct Message {
     Wanted wanted;
-    stage::RequestContext context;
+    use::RequestContext context;
     std::uint64_t sequence = 0;
     bool outdated = false;  // its lease belongs to a run that was killed
   };

@@ -12,7 +12,7 @@ namespace axisgate::simulation {
 // Returns a perfect line at 38400 baud with the simulator's default interpretations.
 Setup quiet();
 // Returns the same with `permission`, which decides who may move which axes.
-Setup shared_by(stage::Permission& permission);
+Setup shared_by(use::Permission& permission);
 
 inline constexpr stage::AxisSet kOne = stage::AxisSet::of(1), kTwo = stage::AxisSet::of(2);
 

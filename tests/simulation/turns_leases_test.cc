@@ -55,7 +55,7 @@ class TurnsAmidMotions : public testing::Test {
   // Acquires a lease and moves once under it; acquires the next one `pause` after the lease was granted.
   void lease_again_and_again(const std::string& who, Duration pause) {
     const TimePoint asked = world_.now();
-    leases_.acquire({.axes = kOne}, who, true, asked + seconds(20), asked,
+    leases_.acquire({.scope = kOne}, who, true, asked + seconds(20), asked,
                     [this, who, pause, asked](const Result<Lease>& got) {
                       ASSERT_TRUE(got) << got.error().message;
                       note("a lease", world_.now() - asked);

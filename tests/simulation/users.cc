@@ -103,7 +103,7 @@ RequestContext Users::context(const User& user, LeaseToken token) {
 LeaseTerms Users::drawn_terms() {
   auto& random = world_.random();
   LeaseTerms terms;
-  terms.axes = drawn_axes(random);
+  terms.scope = drawn_axes(random);
   terms.time_to_live = seconds(random.between(2, 15));
   terms.at_loss = random.pick(std::vector{AtLoss::finish, AtLoss::stop, AtLoss::stop_and_release});
   return terms;
@@ -119,7 +119,7 @@ void Users::acquire(User& user) {
 
 void Users::take_over(User& user) {
   const LeaseTerms terms = drawn_terms();
-  for (auto& [token, grant] : grants_) grant.over = grant.over || grant.axes.touches(terms.axes);
+  for (auto& [token, grant] : grants_) grant.over = grant.over || grant.axes.touches(AxisSet::in(terms.scope));
   ++counts_.taken_over;
   leases_.take_over(terms, user.name, world_.now(), [this, &user](const Result<Lease>& lease) {
     if (lease) granted(user, *lease);
@@ -128,21 +128,21 @@ void Users::take_over(User& user) {
 
 void Users::granted(User& user, const Lease& lease) {
   ++counts_.granted;
-  for (const int axis : lease.terms.axes.list()) {
+  for (const int axis : lease.terms.scope.list()) {
     if (const Grant* other = owner_of(axis)) {
       world_.violation(fmt::format("axis {} was given to {} while {} owns it", axis, user.name, other->who));
     }
   }
   for (const Motion& motion : world_.controller().motions()) {
     const bool runs = motion.state == MotionState::running || motion.state == MotionState::stopping;
-    if (runs && motion.axes.touches(lease.terms.axes)) {
+    if (runs && motion.axes.touches(AxisSet::in(lease.terms.scope))) {
       world_.violation(fmt::format("{} got a lease over motion {} of {}", user.name, motion.id, motion.who));
     }
   }
   const TimePoint until = world_.now() + lease.terms.time_to_live;
   Grant grant;
   grant.who = user.name;
-  grant.axes = lease.terms.axes;
+  grant.axes = AxisSet::in(lease.terms.scope);
   grant.time_to_live = lease.terms.time_to_live;
   grant.valid_until = until;
   grant.at_loss = lease.terms.at_loss;

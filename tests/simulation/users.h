@@ -66,7 +66,7 @@ class Users {
   void stop(User& user);
   void rearm(User& user);
   server::LeaseTerms drawn_terms();
-  stage::RequestContext context(const User& user, server::LeaseToken token);
+  use::RequestContext context(const User& user, server::LeaseToken token);
   server::LeaseToken drawn_token(const User& user);
   void granted(User& user, const server::Lease& lease);
   void on_news(const stage::Event& event);

@@ -23,10 +23,10 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
-  stage::EventSink* listener = nullptr;     // receives every event too
-  stage::Permission* permission = nullptr;  // null: everybody may do everything
-  bool followed = true;                     // false: the state of moves is rarely read while they run
-  bool callers_send_bare_go = false;        // false: a bare G is taken for a fault of the gateway
+  stage::EventSink* listener = nullptr;   // receives every event too
+  use::Permission* permission = nullptr;  // null: everybody may do everything
+  bool followed = true;                   // false: the state of moves is rarely read while they run
+  bool callers_send_bare_go = false;      // false: a bare G is taken for a fault of the gateway
 };
 
 // Returns a setup whose interpretations of the manual are drawn from the seed.
@@ -61,7 +61,7 @@ class World : public stage::EventSink {
   void return_of_the_unit(Duration unplugged_for);
   // Kills the daemon and starts another one. Must be called between two calls of the controller, for instance by at().
   struct Restart {
-    std::function<stage::Permission&()> start;  // starts the other daemon, once the controller is gone
+    std::function<use::Permission&()> start;  // starts the other daemon, once the controller is gone
     std::function<void(shrc203::Controller& controller)> prepare;  // before the line is opened
     Duration away{};                                               // until the line is opened
     bool written_is_lost = false;                                  // Wire::change_gateway()
@@ -69,7 +69,7 @@ class World : public stage::EventSink {
   void restart_gateway(const Restart& restart);
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
-  stage::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
+  use::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
     return {std::move(who), "", now_ + limit};
   }
 

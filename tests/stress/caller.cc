@@ -88,7 +88,7 @@ Caller::Ticket Caller::ticket(std::size_t device, const std::string& what) {
 
 // Returns a context whose request id names the request, so that a motion that is reported to the wrong caller is
 // detected.
-RequestContext Caller::context(const Ticket& ticket) const { return {name(), ticket->asked(), {}}; }
+use::RequestContext Caller::context(const Ticket& ticket) const { return {name(), ticket->asked(), {}}; }
 
 void Caller::question(std::size_t device) {
   auto [line, answer] = known_answer(device, draw(0, kKnownAnswers - 1));

@@ -49,7 +49,7 @@ class Caller {
 
   std::string name() const { return fmt::format("caller {}", number_); }
   Ticket ticket(std::size_t device, const std::string& what);
-  stage::RequestContext context(const Ticket& ticket) const;
+  use::RequestContext context(const Ticket& ticket) const;
   stage::StageController::OnStarted on_started(const Ticket& ticket, std::size_t device);
   int draw(int minimum, int maximum) { return std::uniform_int_distribution(minimum, maximum)(random_); }
 

@@ -20,8 +20,8 @@ _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/co
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
 _FLOORS = {
-    "device/core": (0,), "device/config": (0,), "device/stage": (1, 0), "device/jobs": (1, 1), "device/*": (1, 2),
-    "device": (1, 3),
+    "device/core": (0,), "device/config": (0,), "device/use": (1, 0), "device/stage": (1, 1), "device/jobs": (1, 2), "device/*": (1, 3),
+    "device": (1, 4),
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
     "server/spool": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
@@ -160,7 +160,7 @@ _KINDS = "server/kinds.cc"
 
 
 def _names_a_kind(path, target):
-    of_a_kind = target.startswith("device/") and room_of(target)[0] == (1, 2) and room_of(target)[1] != "device/link"
+    of_a_kind = target.startswith("device/") and room_of(target)[0] == (1, 3) and room_of(target)[1] != "device/link"
     return of_a_kind and path.startswith("server/") and path != _KINDS
 
 

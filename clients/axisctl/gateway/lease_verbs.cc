@@ -15,27 +15,28 @@
 namespace axisgate::axisctl {
 namespace {
 
-template <class Axes>
-std::string axes_text(const Axes& axes) {
-  return fmt::format("{} {}", axes.size() == 1 ? "axis" : "axes", fmt::join(axes, ", "));
+// `covering`: a Lease, a WaitingLease, a Latch or a RearmResponse.
+template <class Message>
+std::string scope_text(const Message& covering) {
+  if (covering.whole_device()) return "the whole device";
+  return fmt::format("{} {}", covering.axes_size() == 1 ? "axis" : "axes", fmt::join(covering.axes(), ", "));
 }
 
 std::string latch_text(const v1::Latch& latch) {
-  return fmt::format("stopped by {} at {} on {}: must rearm", latch.by(), time_text(latch.time()),
-                     axes_text(latch.axes()));
+  return fmt::format("stopped by {} at {} on {}: must rearm", latch.by(), time_text(latch.time()), scope_text(latch));
 }
 
 void print_board(const v1::WatchLeasesResponse& board) {
   for (const v1::Lease& lease : board.leases()) {
     std::string text =
-        fmt::format("{}  held by {} since {}", axes_text(lease.axes()), lease.holder(), time_text(lease.since_time()));
+        fmt::format("{}  held by {} since {}", scope_text(lease), lease.holder(), time_text(lease.since_time()));
     if (!lease.purpose().empty()) text += fmt::format("  ({})", lease.purpose());
     if (!lease.ending().empty()) text += fmt::format("  ending: {}", lease.ending());
     if (lease.has_latch()) text += "  " + latch_text(lease.latch());
     print_line(text);
   }
   for (const v1::WaitingLease& waiting : board.waiting()) {
-    std::string text = fmt::format("{}  {} waits since {}  place {} in the queue", axes_text(waiting.axes()),
+    std::string text = fmt::format("{}  {} waits since {}  place {} in the queue", scope_text(waiting),
                                    waiting.holder(), time_text(waiting.since_time()), waiting.place());
     if (!waiting.purpose().empty()) text += fmt::format("  ({})", waiting.purpose());
     if (waiting.has_expected_wait()) text += fmt::format("  expected wait {} s", waiting.expected_wait().seconds());
@@ -65,10 +66,10 @@ v1::WatchLeasesResponse board_now(const Session& session, const std::string& dev
 
 void print_released(const v1::RearmResponse& response) {
   for (const v1::Latch& latch : response.latches()) {
-    print_line(fmt::format("released: the stop of {} by {} at {}", axes_text(latch.axes()), latch.by(),
-                           time_text(latch.time())));
+    print_line(
+        fmt::format("released: the stop of {} by {} at {}", scope_text(latch), latch.by(), time_text(latch.time())));
   }
-  print_line(fmt::format("{} may move again", axes_text(response.axes())));
+  print_line(fmt::format("{} may move again", scope_text(response)));
 }
 
 // Explains that nothing was rearmed. A lease of another caller may have a latch, which this call could not end.
@@ -78,10 +79,10 @@ std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
     return fmt::format(
         "you have no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` as its holder, or inside its "
         "`axisctl lease run`",
-        lease.holder(), axes_text(lease.latch().axes()));
+        lease.holder(), scope_text(lease.latch()));
   }
   for (const v1::HeldBack& one : board.held_back()) {
-    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.who(), axes_text(one.latch().axes()));
+    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.who(), scope_text(one.latch()));
   }
   return "there is no latch";
 }

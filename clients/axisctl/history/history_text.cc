@@ -19,8 +19,10 @@ using Json = nlohmann::json;
 constexpr std::size_t kLineMax = 1000;  // longer than any line
 
 std::string axes_text(const Json& details) {
+  const Json axes = details.value("axes", Json::array());
+  if (axes.is_string()) return "the whole device";
   std::string text;
-  for (const Json& axis : details.value("axes", Json::array())) {
+  for (const Json& axis : axes) {
     text += fmt::format("{}{}", text.empty() ? "" : ", ", axis.dump());
   }
   return text.empty() ? "no axis" : (text.find(',') == std::string::npos ? "axis " : "axes ") + text;

@@ -27,7 +27,7 @@ tl::unexpected<Problem> refuse_paused(jobs::JobNumber job, std::string_view is, 
 
 }  // namespace
 
-void JobRun::start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
+void JobRun::start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by,
                    TimePoint now) {
   job.written.reset();
   job.executed.reset();

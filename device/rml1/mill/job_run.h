@@ -40,8 +40,7 @@ class JobRun {
   const std::optional<jobs::MeasuredPace>& measured_pace() const { return measured_pace_; }
 
   // Starts a confirmed job while none runs: its first byte goes out if the mill takes it.
-  void start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
-             TimePoint now);
+  void start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by, TimePoint now);
   // Fails with wrong_mode if no job is being sent. `raise`: after what was sent, the tool is raised and the spindle
   // stops, and the job is then PAUSED.
   Result<void> pause(bool raise, TimePoint now);

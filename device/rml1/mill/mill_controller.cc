@@ -37,7 +37,7 @@ void MillController::NotedLine::write(std::string_view bytes) {
 }
 
 MillController::MillController(const Profile& profile, const jobs::MachineSettings& settings, FlowLink& line,
-                               jobs::MachineEvents& events, stage::Permission& permission)
+                               jobs::MachineEvents& events, use::Permission& permission)
     : settings_(settings),
       line_(*this, line),
       events_(events),
@@ -89,7 +89,7 @@ Result<void> MillController::check_startable(jobs::JobNumber number, TimePoint n
 }
 
 Result<void> MillController::start(jobs::JobNumber number, std::shared_ptr<const jobs::PreparedJob> part,
-                                   const stage::RequestContext& by, TimePoint now) {
+                                   const use::RequestContext& by, TimePoint now) {
   const Result<jobs::Job*> found = queue_.find(number);
   if (!found) return tl::unexpected(found.error());
   jobs::Job& job = **found;
@@ -106,7 +106,7 @@ Result<void> MillController::start(jobs::JobNumber number, std::shared_ptr<const
   return {};
 }
 
-Result<void> MillController::resume(const stage::RequestContext& by, TimePoint now) {
+Result<void> MillController::resume(const use::RequestContext& by, TimePoint now) {
   const Result<void> can = run_.check_resumable().and_then([&] { return rights_.authorize(by, 0, now); });
   if (can) run_.resume(now);
   return can;
@@ -136,7 +136,7 @@ void MillController::plan_rest(const jobs::Job& planned) {
   if (same) (*job)->parts[planned.part] = planned.parts[planned.part];
 }
 
-bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
+bool MillController::abort(const use::RequestContext& by, TimePoint now) {
   rights_.stop_asked(by, now);
   return abort(by.who, now);
 }
@@ -170,7 +170,7 @@ Result<void> MillController::done(jobs::JobNumber job, std::string_view by, Time
 
 void MillController::count_surface() { events_.surface_set(left_.count_surface()); }
 
-Result<Duration> MillController::operate(const jobs::HandAct& act, const stage::RequestContext& by, TimePoint now) {
+Result<Duration> MillController::operate(const jobs::HandAct& act, const use::RequestContext& by, TimePoint now) {
   const Result<HandWords> words = hand_.words(act);
   if (!words) return tl::unexpected(words.error());
   const Result<void> can = check_no_job_runs("wait until it has ended")
@@ -213,7 +213,7 @@ void MillController::illegal(std::string_view machine, std::string_view state, s
   internal_error_ = fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event);
 }
 
-// Nobody knows what the mill does: it is stopped, and a person looks at the workpiece. The abort is the first thing
+// The mill is stopped, because its state is unknown, and a person looks at the workpiece. The abort is the first thing
 // sent on the line that is opened again: bytes that wait in the host when a line is closed are lost.
 void MillController::recover(TimePoint now) {
   events_.internal_error(internal_error_, now);

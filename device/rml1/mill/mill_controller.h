@@ -27,8 +27,8 @@
 #include "device/rml1/mill/job_run.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/sending/abort.h"
-#include "device/stage/permission.h"
 #include "device/stage/requests.h"
+#include "device/use/permission.h"
 
 namespace axisgate::rml1 {
 
@@ -37,7 +37,7 @@ class MillController : public jobs::Machine, private Violations {
  public:
   // The referenced objects must outlive this one.
   MillController(const Profile& profile, const jobs::MachineSettings& settings, FlowLink& line,
-                 jobs::MachineEvents& events, stage::Permission& permission);
+                 jobs::MachineEvents& events, use::Permission& permission);
 
   void inherit(jobs::Job job) override;
   void inherit_left(const jobs::Job& last) override;
@@ -49,19 +49,19 @@ class MillController : public jobs::Machine, private Violations {
   Result<void> check_startable(jobs::JobNumber job, TimePoint now) override;
   // `prepared` is a PreparedJob of this folder.
   Result<void> start(jobs::JobNumber job, std::shared_ptr<const jobs::PreparedJob> prepared,
-                     const stage::RequestContext& by, TimePoint now) override;
+                     const use::RequestContext& by, TimePoint now) override;
   Result<void> pause(bool raise, TimePoint now) override { return run_.pause(raise, now); }
-  Result<void> resume(const stage::RequestContext& by, TimePoint now) override;
+  Result<void> resume(const use::RequestContext& by, TimePoint now) override;
   Result<void> choose_rest(jobs::JobNumber job, const jobs::JobRest& rest, std::string_view by, TimePoint now) override;
   void plan_rest(const jobs::Job& planned) override;
-  bool abort(const stage::RequestContext& by, TimePoint now) override;
+  bool abort(const use::RequestContext& by, TimePoint now) override;
   bool abort(std::string_view by, TimePoint now) override;
   Result<void> cancel(jobs::JobNumber job, std::string_view by, TimePoint now) override;
   Result<void> done(jobs::JobNumber job, std::string_view by, TimePoint now) override;
   Result<void> move_first(jobs::JobNumber job, jobs::Overtaken overtaken, std::string_view by, TimePoint now) override {
     return queue_.move_first(job, overtaken, by, now);
   }
-  Result<Duration> operate(const jobs::HandAct& act, const stage::RequestContext& by, TimePoint now) override;
+  Result<Duration> operate(const jobs::HandAct& act, const use::RequestContext& by, TimePoint now) override;
 
   const std::vector<jobs::Job>& jobs() const override { return queue_.jobs(); }
   std::optional<jobs::RunningJob> running(TimePoint now) override { return run_.view(now); }

@@ -51,7 +51,7 @@ class Sender {
   void resume(TimePoint now);
   // Sends no more of the job, and raises the tool after the last sent byte.
   void raise(TimePoint now);
-  // Nothing of the job is written after it.
+  // Ends the writing of the job and requests the abort.
   void abort(TimePoint now);
   void line_lost(TimePoint now);
 

@@ -15,7 +15,7 @@
 #include "device/shrc203/state/non_host.h"
 #include "device/shrc203/state/registers.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::shrc203 {
 

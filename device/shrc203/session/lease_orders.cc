@@ -6,7 +6,7 @@ void LeaseOrders::carry_out() {
   const Orders orders = permission_.advance(tasks_.now());
   for (const StopOrder& order : orders.stops) {
     const RequestContext gateway{.who = "the gateway on behalf of " + order.who};
-    stops_.stop(order.axes, StopKind::stop, gateway,
+    stops_.stop(AxisSet::in(order.scope), StopKind::stop, gateway,
                 [this, id = order.id](const StopReport&) { permission_.stopped(id, tasks_.now()); });
   }
   for (const EndedLease& lease : orders.restoring) restorer_.lease_ended(lease);

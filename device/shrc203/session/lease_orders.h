@@ -4,7 +4,7 @@
 #include "device/core/tasks.h"
 #include "device/shrc203/session/restorer.h"
 #include "device/shrc203/session/stops.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::shrc203 {
 

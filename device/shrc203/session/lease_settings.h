@@ -9,7 +9,7 @@
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/state/pending_restores.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::shrc203 {
 

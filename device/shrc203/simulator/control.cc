@@ -147,7 +147,8 @@ constexpr std::array kControlCommands = {
         flag},
     ControlCommand{"inputs NUMBER", "what IN1 to IN6 are given, as I: reports it (manual 95))", inputs},
     ControlCommand{"outputs", "what OUT1 to OUT6 give, as ?:O reports it (manual 26))", outputs},
-    ControlCommand{"triggers", "how many pulses the trigger output has given up to now (manual 97) to 101))", triggers},
+    ControlCommand{"triggers", "how many pulses the trigger output has output up to now (manual 97) to 101))",
+                   triggers},
     ControlCommand{"sleep on|off", "as SLEEP: (manual 47)); only while stationary", sleep},
     ControlCommand{"power cycle", "off and on: as RESET: (manual 46)); the stages stay where they are",
                    [](const Call& call) -> Done {

@@ -9,7 +9,7 @@
 #include "device/core/tasks.h"
 #include "device/shrc203/stage.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::shrc203 {
 

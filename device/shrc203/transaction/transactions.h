@@ -12,7 +12,7 @@
 #include "device/shrc203/transaction/transaction_end.h"
 #include "device/shrc203/transaction/transaction_lines.h"
 #include "device/shrc203/transaction/transaction_start.h"
-#include "device/stage/permission.h"
+#include "device/use/permission.h"
 
 namespace axisgate::shrc203 {
 

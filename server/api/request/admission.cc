@@ -17,7 +17,7 @@ namespace {
 using server::Caller;
 using server::IdentityLimits;
 using server::Role;
-using stage::RequestContext;
+using use::RequestContext;
 
 constexpr std::size_t kRequestIdMax = 128;
 constexpr Duration kMotionValid = std::chrono::seconds(5);

@@ -39,10 +39,10 @@ class Admission {
 
   // Builds the context of a request by the deadline rule and the use of its kind. Fails with invalid_request if
   // check_request_id() fails, and with lease_lost if the lease token is invalid.
-  Result<stage::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;
+  Result<use::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;
 
   // Builds the context of a stop. Never refuses, not even a token that was revoked since let_in().
-  stage::RequestContext context_of_stop(const Call& call) const;
+  use::RequestContext context_of_stop(const Call& call) const;
 
  private:
   Result<server::Caller> identify(const Credential& credential) const;

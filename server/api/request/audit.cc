@@ -14,8 +14,7 @@ void audit(RequestKind kind, std::string_view who, std::string_view what) {
   if (rule_of(kind).audited) server::log::info("{} {}", escaped(who), escaped(what, kWhatMax));
 }
 
-void audit(RequestKind kind, const server::Device& device, const stage::RequestContext& context,
-           std::string_view what) {
+void audit(RequestKind kind, const server::Device& device, const use::RequestContext& context, std::string_view what) {
   if (!rule_of(kind).audited) return;
   server::log::info("{}: {} requests: {}", device.name(), escaped(context.who), escaped(what, kWhatMax));
 }

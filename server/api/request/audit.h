@@ -16,6 +16,6 @@ namespace axisgate::api {
 void audit(RequestKind kind, std::string_view who, std::string_view what);
 
 // Logs a request that is now passed to its device: "move axis 1 to 5 mm".
-void audit(RequestKind kind, const server::Device& device, const stage::RequestContext& context, std::string_view what);
+void audit(RequestKind kind, const server::Device& device, const use::RequestContext& context, std::string_view what);
 
 }  // namespace axisgate::api

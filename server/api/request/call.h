@@ -16,7 +16,7 @@ struct Credential {
   std::string who{};                   // name by the connection: "unix alice", "cert alice", "tcp 127.0.0.1:39482"
   std::optional<std::string> token{};  // overrides `who`; an empty text is an invalid token
   bool needs_token = false;            // calls without a token are refused
-  std::string session{};               // see stage::Use::session
+  std::string session{};               // see use::Use::session
 };
 
 // Returns the caller's name as in Motion.who, without any check: "unix alice", "token night-scan".

@@ -39,7 +39,7 @@ class Waiting {
   std::unique_ptr<server::Timeout> timeout_;
 };
 
-Json body_of(RequestKind kind, const stage::RequestContext& context, std::string_view what) {
+Json body_of(RequestKind kind, const use::RequestContext& context, std::string_view what) {
   Json body{{"request", name(kind)}, {"what", what}, {"role", context.role}};
   if (!context.request_id.empty()) body["request_id"] = context.request_id;
   if (context.lease != 0) body["lease"] = context.lease;
@@ -56,7 +56,7 @@ Mutation::Mutation(server::Gateway& gateway, const server::Device& device, Reque
   if (begun_) key_ = {begun_->request.identity, begun_->request.id};
 }
 
-bool Mutation::intend(const stage::RequestContext& context, std::string_view what, Then then) {
+bool Mutation::intend(const use::RequestContext& context, std::string_view what, Then then) {
   Journal* const journal = gateway_.journal();
   if (journal == nullptr || !uses_axes(kind_)) return false;
   intended_ = true;

@@ -25,7 +25,7 @@ class Mutation {
   // Writes the request to the journal. Calls `then` when the entry is on the disk, or with journal_unavailable if it is
   // not; then nothing may be sent. Returns false if the request need not wait; `then` is not called in this case.
   using Then = std::function<void(const Result<void>&)>;
-  bool intend(const stage::RequestContext& context, std::string_view what, Then then);
+  bool intend(const use::RequestContext& context, std::string_view what, Then then);
 
   // Notes that the request was executed. `answer`: see journal/answers.h; nullopt: a motion runs, and its end is the
   // answer.

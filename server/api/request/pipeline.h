@@ -27,7 +27,7 @@ template <class Device>
 struct AdmittedTo {
   Device* device = nullptr;  // never null
   server::Caller caller;
-  stage::RequestContext context;
+  use::RequestContext context;
 };
 using Admitted = AdmittedTo<server::Stage>;
 
@@ -37,7 +37,7 @@ struct TurnOf {
   Device& device;
   typename Device::Controller& controller;
   const server::Caller& caller;
-  const stage::RequestContext& context;
+  const use::RequestContext& context;
   TimePoint now;
 };
 using Turn = TurnOf<server::Stage>;
@@ -54,7 +54,7 @@ using Asked = AskedOf<server::Stage>;
 
 // Fails with deadline_passed if the request starts a motion and its time ran out while it was posted. A request that
 // waits on the device beyond its not_after is refused there.
-Result<void> check_deadline(RequestKind kind, const stage::RequestContext& context, TimePoint now);
+Result<void> check_deadline(RequestKind kind, const use::RequestContext& context, TimePoint now);
 
 // A PipelineOf leads to one family of devices. Thread safe.
 template <class Device>
@@ -144,7 +144,7 @@ Result<typename PipelineOf<Device>::Identified> PipelineOf<Device>::identify(con
 
 template <class Device>
 Result<AdmittedTo<Device>> PipelineOf<Device>::admit(const Asked& asked, Identified identified) const {
-  Result<stage::RequestContext> context = admission_.context_of(asked.kind, asked.call, identified.caller);
+  Result<use::RequestContext> context = admission_.context_of(asked.kind, asked.call, identified.caller);
   if (!context) return tl::unexpected(context.error());
   if (asked.fault) return tl::unexpected(*asked.fault);
   return Admitted{identified.device, std::move(identified.caller), *std::move(context)};

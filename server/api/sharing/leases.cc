@@ -44,10 +44,20 @@ Result<void> fill_times(const LeaseWish& wish, LeaseTerms& terms) {
   return {};
 }
 
-Result<LeaseTerms> checked_terms(const Result<LeaseWish>& wish) {
+// An unknown device is refused later, by its name.
+Result<use::Scope> scope_of(const LeaseWish& wish, const Result<server::Device*>& device) {
+  if (wish.axes.empty()) return device ? (*device)->whole() : use::Scope();
+  if (!device || !(*device)->whole().is_whole_device()) return use::Scope(wish.axes);
+  return fail(Reason::invalid_request, fmt::format("{} has no axes that could be leased one by one", (*device)->name()),
+              "name no axes: the lease is then over the whole device");
+}
+
+Result<LeaseTerms> checked_terms(const Result<LeaseWish>& wish, const Result<server::Device*>& device) {
   if (!wish) return tl::unexpected(wish.error());
+  const Result<use::Scope> scope = scope_of(*wish, device);
+  if (!scope) return tl::unexpected(scope.error());
   LeaseTerms terms;
-  terms.axes = wish->axes.empty() ? stage::AxisSet::all() : wish->axes;
+  terms.scope = *scope;
   terms.at_loss = wish->at_loss;
   terms.purpose = wish->purpose;
   if (const auto filled = fill_times(*wish, terms); !filled) return tl::unexpected(filled.error());
@@ -104,9 +114,10 @@ class LeaseWatch final : public Subscription<Board> {
 // request acquires one again.
 void Leases::acquire(const Call& call, std::string_view device, const Result<LeaseWish>& wish, Duration wait,
                      const std::shared_ptr<LeaseSeeker>& seeker) const {
-  const Result<LeaseTerms> terms = checked_terms(wish);
+  const Result<server::Device*> found = find_device(gateway_, device);
+  const Result<LeaseTerms> terms = checked_terms(wish, found);
   const Result<Duration> waits = terms ? check_span(wait, kWaitMax, "wait") : tl::unexpected(terms.error());
-  pipeline_.ask({RequestKind::acquire_lease, call, find_device(gateway_, device), fault_of(waits)}, answering(seeker),
+  pipeline_.ask({RequestKind::acquire_lease, call, found, fault_of(waits)}, answering(seeker),
                 [seeker, terms, wait = waits.value_or(Duration()), validate_only = call.validate_only](
                     const LeaseTurn& turn, const Answer<std::optional<Lease>>& respond) {
                   if (validate_only) return respond(std::nullopt);
@@ -125,8 +136,9 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
 
 void Leases::take_over(const Call& call, std::string_view device, const Result<LeaseWish>& wish,
                        const std::shared_ptr<LeaseSeeker>& seeker) const {
-  const Result<LeaseTerms> terms = checked_terms(wish);
-  pipeline_.ask({RequestKind::take_over_lease, call, find_device(gateway_, device), fault_of(terms)}, answering(seeker),
+  const Result<server::Device*> found = find_device(gateway_, device);
+  const Result<LeaseTerms> terms = checked_terms(wish, found);
+  pipeline_.ask({RequestKind::take_over_lease, call, found, fault_of(terms)}, answering(seeker),
                 [seeker, terms, validate_only = call.validate_only](const LeaseTurn& turn,
                                                                     const Answer<std::optional<Lease>>& respond) {
                   if (validate_only) return respond(std::nullopt);

@@ -21,7 +21,7 @@ namespace axisgate::api {
 
 // A LeaseWish describes the lease that a caller requests.
 struct LeaseWish {
-  stage::AxisSet axes{};                   // empty: all
+  stage::AxisSet axes{};                   // of a stage; empty: the whole device
   std::optional<Duration> time_to_live{};  // 1 s to 24 h; nullopt: 10 s
   server::AtLoss at_loss = server::AtLoss::stop;
   std::optional<Duration> expected_use{};  // at most 365 days

@@ -58,7 +58,7 @@ struct RemovalRun {
   Removal removal;
   server::Stage& device;
   stage::PositionLines lines;
-  stage::RequestContext context;
+  use::RequestContext context;
 
   void refuse(const Problem& problem) const { removal.answer(tl::unexpected(problem)); }
 };

@@ -74,7 +74,7 @@ class Asking {
 };
 
 void ask_all(const Turn& turn, const std::shared_ptr<Asking>& asking) {
-  stage::RequestContext limited = turn.context;
+  use::RequestContext limited = turn.context;
   limited.not_after = std::min(limited.not_after, turn.now + kAnswerLimit);
   for (const std::string_view question : turn.device.kind().setting_questions()) {
     turn.controller.execute({{std::string(question)}, limited}, turn.now,

@@ -63,7 +63,7 @@ StopReport report_of_abort(const Mill& mill, const std::optional<jobs::RunningJo
                                   std::ceil(longest_s * 10) / 10)}};
 }
 
-void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
+void stop_mill(Mill& mill, const use::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
                std::size_t index) {
   mill.post(
       [&mill, context, gathering, index](jobs::Machine& controller, TimePoint now) {
@@ -76,7 +76,7 @@ void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shar
 
 // Stops all devices. `start(controller, now, done)` stops one stage.
 template <class Start>
-void stop_each(const std::vector<Device*>& devices, const stage::RequestContext& context,
+void stop_each(const std::vector<Device*>& devices, const use::RequestContext& context,
                Answer<std::vector<DeviceStop>> answer, Start start) {
   const auto gathering = std::make_shared<Gathering>(devices, std::move(answer));
   for (std::size_t index = 0; index < devices.size(); ++index) {
@@ -116,7 +116,7 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
     return answer(fail(Reason::invalid_request, "the axes to be stopped are given without their device",
                        "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
-  const stage::RequestContext context = admission_.context_of_stop(call);
+  const use::RequestContext context = admission_.context_of_stop(call);
   stop_each(*devices, context, std::move(answer),
             [axes = *axes, context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.stop(axes, context, now, std::move(done));
@@ -126,7 +126,7 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
 void Stops::emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const {
   const auto devices = find_devices(device, false);
   if (!devices) return answer(tl::unexpected(devices.error()));
-  const stage::RequestContext context = admission_.context_of_stop(call);
+  const use::RequestContext context = admission_.context_of_stop(call);
   stop_each(*devices, context, std::move(answer),
             [context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.emergency_stop(context, now, std::move(done));

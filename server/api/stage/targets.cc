@@ -87,7 +87,7 @@ Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisSta
   return all;
 }
 
-Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, stage::RequestContext context) {
+Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, use::RequestContext context) {
   stage::MoveRequest request;
   request.relative = move.relative;
   request.context = std::move(context);

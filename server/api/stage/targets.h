@@ -46,6 +46,6 @@ Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::Stat
 Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisState& axis);
 
 // Completes the move with the device's present speeds. Fails with invalid_request.
-Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, stage::RequestContext context);
+Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, use::RequestContext context);
 
 }  // namespace axisgate::api

@@ -92,12 +92,7 @@ grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* con
   leases_.rearm(to_call(*context, request->context()), request->device(),
                 answering<std::vector<server::Latch>>(
                     call, [](v1::RearmResponse& answer, const std::vector<server::Latch>& lifted) {
-                      stage::AxisSet axes;
-                      for (const server::Latch& latch : lifted) {
-                        axes = axes | latch.axes;
-                        *answer.add_latches() = proto::to_proto(latch);
-                      }
-                      for (const int axis : axes.list()) answer.add_axes(axis);
+                      answer = proto::to_proto(lifted);
                     }));
   return call.get();
 }

@@ -49,7 +49,7 @@ TEST_F(LatchesTest, AProgramsOwnStopHoldsItNotBack) {
   rearm(one);
 
   LeaseToken token = 0;
-  leases_.acquire({.axes = kOne, .session = session}, one, false, now_, now_,
+  leases_.acquire({.scope = kOne, .session = session}, one, false, now_, now_,
                   [&](const Result<Lease>& lease) { token = lease->token; });
   leases_.stop_asked({other, 0, kOne, 0, session}, {}, now_);
   EXPECT_EQ(may(one, token, kOne), kAllowed);
@@ -84,7 +84,7 @@ TEST_F(LatchesTest, AnOwnStopEndsWithTheLeaseAndHidesNoOther) {
 TEST_F(LatchesTest, ANamedCallerRearmsItsLeaseWithoutTheToken) {
   const LeaseToken token = held_by("unix anna", kOne);
   stop_by("unix bert", kOne);
-  EXPECT_EQ(rearm("unix bert"), AxisSet());
+  EXPECT_EQ(rearm("unix bert"), Scope());
   EXPECT_EQ(may("unix anna", token, kOne), Reason::stopped_by);
   EXPECT_EQ(rearm("unix anna"), kOne);
   EXPECT_EQ(may("unix anna", token, kOne), kAllowed);
@@ -93,7 +93,7 @@ TEST_F(LatchesTest, ANamedCallerRearmsItsLeaseWithoutTheToken) {
 TEST_F(LatchesTest, AnAnonymousCallerRearmsNobodysLease) {
   const LeaseToken token = held_by("tcp 127.0.0.1:40000", kOne);
   stop_by("unix bert", kOne);
-  EXPECT_EQ(rearm("tcp 127.0.0.1:40000"), AxisSet());
+  EXPECT_EQ(rearm("tcp 127.0.0.1:40000"), Scope());
   EXPECT_EQ(may("tcp 127.0.0.1:40000", token, kOne), Reason::stopped_by);
   EXPECT_EQ(rearm("tcp 127.0.0.1:40000", token), kOne);
 }
@@ -147,7 +147,7 @@ TEST_F(LatchesTest, RearmSaysWhatItReleased) {
   const auto lifted = leases_.rearm(0, "unix anna", now_);
   ASSERT_EQ(lifted.size(), 2u);
   EXPECT_EQ(lifted[0].by, "unix bert");
-  EXPECT_EQ(lifted[0].axes, kBoth);
+  EXPECT_EQ(lifted[0].scope, kBoth);
   EXPECT_EQ(lifted[1].by, "unix carl");
 }
 
@@ -232,7 +232,7 @@ TEST_F(LatchesTest, RearmNamesAStopOnceThatLatchedLeaseAndMover) {
   stop_by("unix bert", kBoth);
   const auto lifted = leases_.rearm(0, "unix anna", now_);
   ASSERT_EQ(lifted.size(), 1u);
-  EXPECT_EQ(lifted[0].axes, kBoth);
+  EXPECT_EQ(lifted[0].scope, kBoth);
 }
 
 }  // namespace

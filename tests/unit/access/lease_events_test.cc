@@ -32,7 +32,7 @@ class LeaseEventsTest : public LeaseFixture {
 };
 
 TEST_F(LeaseEventsTest, ALeaseFromItsGrantToItsRelease) {
-  leases_.acquire({.axes = kBoth, .at_loss = AtLoss::finish, .purpose = "for Carl"}, "unix anna", false, now_, now_,
+  leases_.acquire({.scope = kBoth, .at_loss = AtLoss::finish, .purpose = "for Carl"}, "unix anna", false, now_, now_,
                   [](const Result<Lease>&) {});
   EXPECT_THAT(take(), ElementsAre(R"(lease granted|unix anna|{"at_loss":"finish","axes":[1,2],"lease":30064771073,)"
                                   R"("time_to_live_ms":10000})"))
@@ -66,7 +66,7 @@ TEST_F(LeaseEventsTest, ALeaseThatHadEndedIsTakenOverWithoutASecondEnd) {
   begin(1, "unix anna", token, kOne);
   ASSERT_TRUE(leases_.release(token, now_));
   take();
-  leases_.take_over({.axes = kOne}, "unix root", now_, [](const Result<Lease>&) {});
+  leases_.take_over({.scope = kOne}, "unix root", now_, [](const Result<Lease>&) {});
   pass(seconds(0));
   leases_.end(1, now_);
   ASSERT_EQ(orders_.size(), 1u);
@@ -83,7 +83,7 @@ TEST_F(LeaseEventsTest, ATakeOverACutAndARevokedToken) {
   take();
   leases_.lost(annas, now_);
   leases_.cut_off("token night", "unix root", now_);
-  leases_.take_over({.axes = AxisSet::of(3)}, "unix root", now_, [](const Result<Lease>&) {});
+  leases_.take_over({.scope = AxisSet::of(3)}, "unix root", now_, [](const Result<Lease>&) {});
   EXPECT_THAT(take(), ElementsAre(R"(lease ended|unix anna|{"axes":[1],"lease":30064771073,"why":"cut_off"})",
                                   R"(lease ended|token night|{"axes":[2],"lease":30064771074,"why":"token_revoked"})",
                                   R"(lease ended|unix carl|{"axes":[3],"lease":30064771075,"why":"taken_over"})"));

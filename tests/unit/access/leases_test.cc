@@ -29,7 +29,7 @@ TEST_F(LeasesTest, OnlyTheTokenMayMoveTheLeasedAxes) {
 }
 
 TEST_F(LeasesTest, ARefusalSaysWhoHoldsItAndSinceWhen) {
-  leases_.acquire({.axes = kOne, .purpose = "overnight scan"}, "anna", false, now_, now_, [](const Result<Lease>&) {});
+  leases_.acquire({.scope = kOne, .purpose = "overnight scan"}, "anna", false, now_, now_, [](const Result<Lease>&) {});
   now_ += seconds(5);
   may("bert", 0, kBoth);
   EXPECT_EQ(told_, "anna has held axis 1 for 5 s (\"overnight scan\")");
@@ -105,7 +105,7 @@ TEST_F(LeasesTest, NobodyOvertakesOneWhoWaits) {
 }
 
 TEST_F(LeasesTest, TheExpectedWaitIsWhatThoseInFrontHaveSaid) {
-  leases_.acquire({.axes = kOne, .expected_use = seconds(30)}, "anna", false, now_, now_, [](const Result<Lease>&) {});
+  leases_.acquire({.scope = kOne, .expected_use = seconds(30)}, "anna", false, now_, now_, [](const Result<Lease>&) {});
   wait_for("bert", kOne, seconds(5));
   wait_for("carl", kOne);
   wait_for("dora", kOne);
@@ -151,7 +151,7 @@ TEST_F(LeasesTest, WhoWillNotWaitLearnsWhoMoves) {
 TEST_F(LeasesTest, WhoHasWaitedInVainLearnsWhoMoved) {
   begin(7, "bert", 0, kOne);
   Problem problem;
-  leases_.acquire({.axes = kOne}, "anna", true, now_ + seconds(3), now_,
+  leases_.acquire({.scope = kOne}, "anna", true, now_ + seconds(3), now_,
                   [&](const Result<Lease>& lease) { problem = lease ? Problem() : lease.error(); });
   pass(seconds(4));
   EXPECT_EQ(problem.reason, Reason::deadline_passed);
@@ -183,7 +183,7 @@ TEST_F(LeasesTest, WhatRunsUnderAnExpiredLeaseIsStopped) {
   wait_for("bert", kOne);
   pass(seconds(10));
   ASSERT_EQ(orders_.size(), 1u);
-  EXPECT_EQ(orders_[0].axes, kOne);
+  EXPECT_EQ(orders_[0].scope, kOne);
   EXPECT_EQ(orders_[0].who, "anna");
   EXPECT_EQ(may("anna", token, kOne, 1), Reason::lease_lost);
   EXPECT_THAT(answers_, IsEmpty()) << "it still moves";
@@ -265,7 +265,7 @@ TEST_F(LeasesTest, ATakeOverStopsFirst) {
   const LeaseToken token = held_by("anna", kBoth);
   begin(1, "anna", token, kOne);
   wait_for("bert", kOne);
-  leases_.take_over({.axes = kOne}, "chief", now_,
+  leases_.take_over({.scope = kOne}, "chief", now_,
                     [this](const Result<Lease>& lease) { answers_.push_back(lease ? "chief has it" : "refused"); });
   EXPECT_EQ(may("anna", token, kOne, 1), Reason::lease_lost) << "not a byte more";
   pass(seconds(0));
@@ -278,7 +278,7 @@ TEST_F(LeasesTest, ATakeOverStopsFirst) {
 
 TEST_F(LeasesTest, ATakeOverEndsAMotionWithoutALease) {
   begin(1, "anna", 0, kOne);
-  leases_.take_over({.axes = kOne}, "chief", now_, [](const Result<Lease>&) {});
+  leases_.take_over({.scope = kOne}, "chief", now_, [](const Result<Lease>&) {});
   EXPECT_EQ(may("anna", 0, kOne, 1), Reason::lease_lost);
 }
 

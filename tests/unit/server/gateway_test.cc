@@ -51,7 +51,7 @@ class Questions {
  private:
   void ask() {
     device_.post([this](stage::StageController& controller, TimePoint now) {
-      const stage::RequestContext context{"tester", "", now + kPatience};
+      const use::RequestContext context{"tester", "", now + kPatience};
       controller.refresh(Duration::zero(), context, now, [this](const Result<stage::State>& state) {
         const std::lock_guard lock(mutex_);
         if (state) --left_;
