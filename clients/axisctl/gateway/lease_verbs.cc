@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/axisctl/child.h"
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/gateway/child.h"
 #include "clients/axisctl/held_lease.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/gateway/kept_recording.h"
 #include "clients/axisctl/history/history_csv.h"
 #include "clients/axisctl/history/history_reader.h"
 #include "clients/axisctl/history/history_text.h"
 #include "clients/axisctl/history/night.h"
-#include "clients/axisctl/kept_recording.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"

@@ -1,4 +1,4 @@
-#include "clients/axisctl/kept_recording.h"
+#include "clients/axisctl/gateway/kept_recording.h"
 
 #include <google/protobuf/util/time_util.h>
 

@@ -1,4 +1,4 @@
-#include "clients/axisctl/child.h"
+#include "clients/axisctl/gateway/child.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
