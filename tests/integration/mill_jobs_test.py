@@ -315,7 +315,7 @@ class MillJobs(unittest.TestCase):
         leased = self.daemon.run("--device", "mill", "lease", "run", "--", BIN / "axisctl", "--target",
                                  self.daemon.socket, "--device", "mill", "lease", "list")
         self.assertRegex(leased.stdout, r"\Athe whole device  held by ")
-        self.assertRegex(self.daemon.run("history", "--text", "whole").stdout, r"lease \d+ of .* over the whole device")
+        self.assertRegex(self.daemon.run("history").stdout, r"lease \d+ of .* over the whole device")
         refused = self.daemon.run("--device", "mill", "position")
         self.assertRegex(refused.stderr, r"INVALID_REQUEST: devices/mill is a mill: it has no axes to move")
         self.assertEqual(self.daemon.run("--device", "mill", "status").stdout,

@@ -148,7 +148,7 @@ int rearm(const Session& session) {
     print_json(response);
     return kDone;
   }
-  if (response.axes().empty()) {
+  if (response.latches().empty()) {
     print_line(nothing_rearmed(board_now(session, request.device())));
   } else {
     print_released(response);
