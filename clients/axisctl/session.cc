@@ -14,8 +14,6 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Reports whether the device is a mill, from its `kind` in the configuration.
-bool is_mill(const v1::Device& device) { return device.kind() == "rml1"; }
 bool is_stage(const v1::Device& device) { return !is_mill(device); }
 
 v1::ListDevicesResponse listed_devices(const Session& session) {
@@ -40,38 +38,40 @@ v1::Device only_one(const v1::ListDevicesResponse& there, bool (*is_so)(const v1
               fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
 }
 
-// Returns the device with this name; null if the daemon does not list it.
-const v1::Device* named_device(const v1::ListDevicesResponse& there, const std::string& name) {
+// Returns the device named by --device. If the daemon does not list it, throws the daemon's explanation of what is
+// wrong with the name.
+v1::Device listed_or_refused(const Session& session, const v1::ListDevicesResponse& there) {
+  const std::string& name = session.options.device;
   const auto found = std::ranges::find(there.devices(), name, &v1::Device::name);
-  return found == there.devices().end() ? nullptr : &*found;
+  if (found != there.devices().end()) return *found;
+  const Connection& connection = session.connection;
+  v1::GetDeviceRequest request;
+  request.set_name(name);
+  return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
 }
 
 }  // namespace
 
+bool is_mill(const v1::Device& device) { return device.axes().empty(); }
+
 v1::Device chosen_device(const Session& session) {
   const v1::ListDevicesResponse there = listed_devices(session);
   if (session.options.device.empty()) return only_one(there, is_stage, "stage");
-  const v1::Device* const named = named_device(there, session.options.device);
-  if (named != nullptr && is_stage(*named)) return *named;
-  const Connection& connection = session.connection;
-  // This call fails with a message that explains the error in the name.
-  v1::GetDeviceRequest request;
-  request.set_name(session.options.device);
-  return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
+  const v1::Device device = listed_or_refused(session, there);
+  if (is_stage(device)) return device;
+  throw Failure{kRefused, "INVALID_REQUEST", fmt::format("{} is a mill: it has no axes to move", device.name()),
+                "`axisctl mill` sends jobs to it"};
 }
 
 v1::Device only_mill(const Session& session) { return only_one(listed_devices(session), is_mill, "mill"); }
 
-v1::Device leased_device(const Session& session) {
+v1::Device any_device(const Session& session) {
   const v1::ListDevicesResponse there = listed_devices(session);
   if (session.options.device.empty()) {
     return std::ranges::any_of(there.devices(), is_stage) ? only_one(there, is_stage, "stage")
                                                           : only_one(there, is_mill, "mill");
   }
-  if (const v1::Device* const named = named_device(there, session.options.device)) return *named;
-  v1::Device unknown;
-  unknown.set_name(session.options.device);
-  return unknown;
+  return listed_or_refused(session, there);
 }
 
 }  // namespace axisgate::axisctl

@@ -18,8 +18,11 @@ struct Session {
 v1::Device chosen_device(const Session& session);
 // Returns the only mill. If --device names a mill, there is no need to ask the daemon.
 v1::Device only_mill(const Session& session);
-// Returns the device named by --device, of any kind; it has only its name if the daemon does not list it. Without
-// --device, the only stage, or the only mill if there is no stage.
-v1::Device leased_device(const Session& session);
+// Returns the device named by --device, of any kind. Without --device, the only stage, or the only mill if there is no
+// stage.
+v1::Device any_device(const Session& session);
+
+// Reports whether the device has no axes that could be moved one by one.
+bool is_mill(const v1::Device& device);
 
 }  // namespace axisgate::axisctl

@@ -189,6 +189,7 @@ void MillVerbs::add_device(const std::string& name, const std::string& kind) {
   v1::Device& device = *mill_.there.add_devices();
   device.set_name("devices/" + name);
   device.set_kind(kind);
+  if (kind != "rml1") device.add_axes()->set_number(1);
 }
 
 v1::Job& MillVerbs::add_job(v1::JobState state) {

@@ -33,13 +33,13 @@ class ChosenDevice : public MillVerbs {
 TEST_F(ChosenDevice, EachKindHasTheOnlyOneOfItsOwn) {
   EXPECT_EQ(chosen(chosen_device), "devices/stage");
   EXPECT_EQ(chosen(only_mill), "devices/mill");
-  EXPECT_EQ(chosen(leased_device), "devices/stage");
+  EXPECT_EQ(chosen(any_device), "devices/stage");
 }
 
 TEST_F(ChosenDevice, OneOfSeveralMustBeNamed) {
   add_device("other", "shrc203");
   EXPECT_EQ(chosen(chosen_device), "the daemon has 2 stages: choose one with --device: stage, other");
-  EXPECT_EQ(chosen(leased_device), "the daemon has 2 stages: choose one with --device: stage, other");
+  EXPECT_EQ(chosen(any_device), "the daemon has 2 stages: choose one with --device: stage, other");
   EXPECT_EQ(chosen(only_mill), "devices/mill");
   add_device("large", "rml1");
   EXPECT_EQ(chosen(only_mill), "the daemon has 2 mills: choose one with --device: mill, large");
@@ -48,15 +48,20 @@ TEST_F(ChosenDevice, OneOfSeveralMustBeNamed) {
 TEST_F(ChosenDevice, WithoutAStageTheMillIsLeased) {
   mill_.there.clear_devices();
   add_device("mill", "rml1");
-  EXPECT_EQ(chosen(leased_device), "devices/mill");
+  EXPECT_EQ(chosen(any_device), "devices/mill");
   EXPECT_EQ(chosen(chosen_device), "the daemon has no stage: configure one");
 }
 
 TEST_F(ChosenDevice, ANamedMillIsLeasedAndMovesNoAxis) {
   options_.device = "devices/mill";
-  EXPECT_EQ(chosen(leased_device), "devices/mill");
-  EXPECT_THAT(chosen(chosen_device), HasSubstr("does not know this call"))
-      << "the daemon is asked what is wrong with the name";
+  EXPECT_EQ(chosen(any_device), "devices/mill");
+  EXPECT_THAT(chosen(chosen_device), HasSubstr("devices/mill is a mill: it has no axes to move"));
+}
+
+TEST_F(ChosenDevice, TheDaemonExplainsANameThatItDoesNotList) {
+  options_.device = "devices/none";
+  for (const auto choose : {chosen_device, any_device})
+    EXPECT_THAT(chosen(choose), HasSubstr("does not know this call"));
 }
 
 }  // namespace

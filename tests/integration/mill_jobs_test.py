@@ -318,6 +318,10 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(self.daemon.run("history").stdout, r"lease \d+ of .* over the whole device")
         refused = self.daemon.run("--device", "mill", "position")
         self.assertRegex(refused.stderr, r"INVALID_REQUEST: devices/mill is a mill: it has no axes to move")
+        for words in (("outputs",), ("move", "1=1mm"), ("clear", "1")):
+            refused = self.daemon.run("--device", "mill", *words)
+            self.assertEqual(refused.returncode, 3, words)
+            self.assertRegex(refused.stderr, r"devices/mill is a mill: it has no axes to move")
         self.assertEqual(self.daemon.run("--device", "mill", "status").stdout,
                          "mill  UP\nMDX-20; `axisctl mill queue` shows its jobs\n")
         self.assertEqual(self.daemon.run("--device", "quick", "sim", "cover", "open").returncode, 0)

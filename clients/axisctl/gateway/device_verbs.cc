@@ -65,9 +65,6 @@ void print_stops(const v1::Device& device) {
   }
 }
 
-// A mill has no axes that could be moved one by one.
-bool is_mill(const v1::Device& device) { return device.axes().empty(); }
-
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
   print_stops(device);
@@ -122,7 +119,7 @@ int devices(const Session& session) {
 }
 
 int status(const Session& session) {
-  v1::Device device = chosen_device(session);
+  v1::Device device = any_device(session);
   std::optional<Failure> failure;
   try {
     device = read_now(session, device.name());
@@ -140,10 +137,6 @@ int status(const Session& session) {
 
 int position(const Session& session) {
   const v1::Device device = read_now(session, chosen_device(session).name());
-  if (is_mill(device)) {
-    throw Failure{kRefused, "INVALID_REQUEST", fmt::format("{} is a mill: it has no axes to move", device.name()),
-                  "`axisctl mill` sends jobs to it"};
-  }
   for (const v1::Axis& axis : device.axes()) {
     if (!axis.controllable()) continue;
     if (session.options.json) {

@@ -93,19 +93,19 @@ int with_lease(const Session& session, int (*verb)(const Session&)) {
   if (!session.options.wait_s) return verb(session);
   std::vector<std::string> axes = session.options.axes;
   for (const std::string& place : session.options.places) axes.push_back(place.substr(0, place.find('=')));
-  const HeldLease held(session, leased_device(session), axes);
+  const HeldLease held(session, any_device(session), axes);
   ::setenv(kLeaseVariable, lease_text(held.lease().token()).c_str(), 1);
   return verb(session);
 }
 
 int lease_run(const Session& session) {
-  const HeldLease held(session, leased_device(session), session.options.axes);
+  const HeldLease held(session, any_device(session), session.options.axes);
   return run_child(session.options.lines, kLeaseVariable, lease_text(held.lease().token()));
 }
 
 int lease_list(const Session& session) {
   v1::WatchLeasesRequest request;
-  request.set_device(leased_device(session).name());
+  request.set_device(any_device(session).name());
   if (!session.options.follow) {
     const v1::WatchLeasesResponse board = board_now(session, request.device());
     session.options.json ? print_json(board) : print_board(board);
@@ -129,7 +129,7 @@ int lease_hand_over(const Session& session) {
   *request.mutable_context() = session.connection.new_call_context();
   if (request.context().lease_token().empty())
     throw usage("this is not inside `axisctl lease run`", "only the holder can hand a lease over");
-  request.set_device(leased_device(session).name());
+  request.set_device(any_device(session).name());
   request.set_to(session.options.holder);
   session.connection.call(session.connection.control, &v1::ControlService::Stub::HandOverLease, request,
                           kQuestionLimit);
@@ -140,7 +140,7 @@ int lease_hand_over(const Session& session) {
 int rearm(const Session& session) {
   v1::RearmRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  const v1::Device device = leased_device(session);
+  const v1::Device device = any_device(session);
   request.set_device(device.name());
   const v1::RearmResponse response =
       session.connection.call(session.connection.control, &v1::ControlService::Stub::Rearm, request, kQuestionLimit);

@@ -52,7 +52,7 @@ class EndedBySignal {
 
 v1::RecordRequest make_request(const Session& session) {
   v1::RecordRequest request;
-  request.set_device(leased_device(session).name());
+  request.set_device(any_device(session).name());
   request.set_skip_kept(session.options.only_new);
   request.set_follow(!session.options.no_follow);
   return request;

@@ -7,7 +7,7 @@ namespace axisgate::axisctl {
 
 int simulate(const Session& session) {
   v1::OperateRequest request;
-  request.set_device(chosen_device(session).name());
+  request.set_device(any_device(session).name());
   for (const std::string& word : session.options.lines) {
     *request.mutable_command() += (request.command().empty() ? "" : " ") + word;
   }

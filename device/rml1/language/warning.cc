@@ -12,11 +12,11 @@ struct Kind {
   std::string_view remedy;
 };
 
-// In the order of the enumeration.
+// In the order of the enumeration, which is that of the names.
 constexpr std::array kKinds{
-    Kind{Warning::beyond_guideline, "beyond-guideline", "see that the mill takes this command"},
     Kind{Warning::below_reach, "below-reach", "set Z0 higher, or clamp the workpiece higher"},
     Kind{Warning::below_stock, "below-stock", "correct the depth or the thickness; right where a board lies below"},
+    Kind{Warning::beyond_guideline, "beyond-guideline", "see that the mill takes this command"},
     Kind{Warning::cut_outside_area, "cut-outside-area", "move the work origin, or the drawing"},
     Kind{Warning::damaged, "damaged", "write the file again"},
     Kind{Warning::deep_pass, "deep-pass", "cut in several passes; right where the material was removed before"},
@@ -37,6 +37,7 @@ constexpr std::array kKinds{
     Kind{Warning::waits_for_person, "waits-for-person", "have somebody at the mill who lets it go on"},
 };
 static_assert(kKinds.size() == kWarnings);
+static_assert(std::ranges::is_sorted(kKinds, {}, &Kind::name));
 
 const Kind& kind(Warning warning) { return kKinds.at(static_cast<std::size_t>(warning)); }
 

@@ -9,9 +9,9 @@
 namespace axisgate::rml1 {
 
 enum class Warning {
-  beyond_guideline,
   below_reach,
   below_stock,
+  beyond_guideline,
   cut_outside_area,
   damaged,
   deep_pass,
