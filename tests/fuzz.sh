@@ -60,7 +60,8 @@ fuzz() {
 
 cd "$root"
 mkdir -p "$build"
-jobs=(device/rml1/{language,machine,check,picture}/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
+jobs=(device/jobs/{bounds,extent,place}.cc device/rml1/{language,machine,check,picture}/*.cc device/config/*.cc
+  tests/rml1/mill.cc tests/fuzz/grammar.cc)
 front=(server/front/{conversation,grpc_side,own_calls,http2_session,request_body,headers,spending,replies,budget}.cc
   tests/http2/{frames,header_codec}.cc)
 

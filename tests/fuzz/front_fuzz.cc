@@ -56,16 +56,16 @@ class FuzzAnswer final : public Answer {
 };
 
 // Forwards /f, answers /s and /a, and refuses every other path.
-class FuzzDesk final : public Desk {
+class FuzzCallFilter final : public CallFilter {
  public:
-  Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
+  Decision decide(const Headers& headers, const Peer&, bool stops_only) override {
     const auto path = find(headers, ":path").value_or("");
-    if (path == "/s") return {.what = Verdict::What::answer, .uncounted = true};
-    if (path == "/a") return {.what = Verdict::What::answer, .place = std::make_shared<int>()};
+    if (path == "/s") return {.what = Decision::What::answer, .uncounted = true};
+    if (path == "/a") return {.what = Decision::What::answer, .place = std::make_shared<int>()};
     if (path == "/f" && !stops_only) {
-      return {.what = Verdict::What::forward, .place = std::make_shared<int>(), .path = "/g"};
+      return {.what = Decision::What::forward, .place = std::make_shared<int>(), .path = "/g"};
     }
-    return {.refusal = {.code = 12, .message = "no"}, .unwanted = path != "/f"};
+    return {.refusal = {.code = 12, .message = "no"}, .denied = path != "/f"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
   std::unique_ptr<Answer> answer(const Headers&, const Peer&, std::optional<std::string_view> message,
@@ -129,9 +129,9 @@ class World {
       case 4:
         return from_grpc(any_frame(choices));
       case 5:
-        if (desk_.asked.empty()) return;
-        desk_.asked.back()({.body = choices.text(), .last = choices.byte() % 2 == 0});
-        if (choices.byte() % 4 == 0) desk_.asked.pop_back();
+        if (filter_.asked.empty()) return;
+        filter_.asked.back()({.body = choices.text(), .last = choices.byte() % 2 == 0});
+        if (choices.byte() % 4 == 0) filter_.asked.pop_back();
         return;
       case 6:
         return from_client(settings_ack());
@@ -194,10 +194,10 @@ class World {
   }
 
   TimePoint now_{std::chrono::seconds(1)};
-  FuzzDesk desk_;
+  FuzzCallFilter filter_;
   Sources sources_{kLimits.source};
   HeldBytes held_{kLimits.held_bytes};
-  Conversation::Shared shared_{desk_, kLimits, sources_, held_};
+  Conversation::Shared shared_{filter_, kLimits, sources_, held_};
   std::optional<Conversation> conversation_;
   FrameReader to_client_, to_grpc_;
   bool fresh_ = true;

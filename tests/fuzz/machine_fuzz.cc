@@ -12,6 +12,7 @@
 
 namespace {
 
+using namespace axisgate;
 using namespace axisgate::rml1;
 using axisgate::require;
 

@@ -11,6 +11,7 @@
 
 namespace {
 
+using namespace axisgate;
 using namespace axisgate::rml1;
 using axisgate::require;
 

@@ -13,6 +13,7 @@ from drawing import CannotRun, git
 # The fast ones first. A folder's tests are in the programs that link it.
 _PROGRAMS = (
     ("device/rml1/", ("rml1_tests",)),
+    ("device/jobs/", ("rml1_tests",)),
     ("server/access/", ("unit_tests", "simulation_tests", "guards_tests")),
     ("device/", ("unit_tests", "conformance_tests", "refusals_tests", "interleavings_tests", "simulation_tests",
                  "guards_tests")),

@@ -1,5 +1,5 @@
 // Check whether a caller may use axes: the epochs that the request names, and the decision of the keeper of leases
-// (device/stage/permission.h).
+// (device/use/permission.h).
 #pragma once
 
 #include <optional>
