@@ -15,7 +15,7 @@ namespace axisgate {
 
 inline constexpr std::size_t kControlLineMax = 200;  // characters of a command
 
-// In a usage, a word in lower case stands for itself, A|B for one of the two, and a word in capitals for a number in
+// In a usage, a word in lower case is typed as it is, A|B is one of the two, and a word in capitals is a number in
 // its own range (COMMAND for any word). A part in brackets, at the end, may be left out. Lines are not case-sensitive.
 struct ControlUsage {
   std::string_view usage;
@@ -41,7 +41,7 @@ std::vector<std::string_view> words_of(std::string_view text);
 // All commands of one device. Thread safe, because it never changes.
 class ControlLanguage {
  public:
-  // The objects behind the views and the span must outlive this one.
+  // The objects that the views and the span refer to must outlive this one.
   ControlLanguage(std::vector<ControlUsage> commands, std::span<const NumberField> numbers)
       : commands_(std::move(commands)), numbers_(numbers) {}
 

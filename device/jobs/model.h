@@ -43,7 +43,7 @@ class Model {
   virtual std::string_view description() const = 0;      // text of all figures: if it changes, jobs are checked again
   virtual std::optional<int> baud() const = 0;           // nullopt: the line is faster than the machine
   virtual OriginLimits origin_limits() const = 0;
-  // Returns the origin in mm. Without a height of its own, Z0 is where the machine has it when it is switched on.
+  // Returns the origin in mm. If it has no height, Z0 is where the machine has it after power-on.
   virtual Origin place_of(const NamedOrigin& origin) const = 0;
 
   // Returns the name of a machine that jobs may have been made for. Fails with invalid_request if nobody knows it.

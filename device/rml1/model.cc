@@ -38,7 +38,7 @@ class SimulatedMill final : public Simulation {
   simulator::Simulator simulator_;
 };
 
-// A quotient such as 203.2 / 0.025 is not always the whole number that it stands for.
+// Rounds, because a quotient such as 203.2 / 0.025 is not always computed as a whole number.
 std::int64_t whole_steps(const Profile& profile, double mm) {
   constexpr double kRounding = 1e-6;
   return static_cast<std::int64_t>(std::floor(profile.steps(mm) + kRounding));

@@ -13,7 +13,7 @@ class Scope {
  public:
   constexpr Scope() = default;  // nothing
   static constexpr Scope whole_device() { return Scope(kWholeDevice); }
-  // Bit n stands for axis n + 1.
+  // Bit n of `bits` is axis n + 1.
   static constexpr Scope of_axes(std::uint32_t bits) { return Scope(bits & ~kWholeDevice); }
 
   constexpr bool is_whole_device() const { return bits_ == kWholeDevice; }
