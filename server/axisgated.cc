@@ -26,6 +26,7 @@
 #include "server/connections/descriptor_limit.h"
 #include "server/devices/motion_record.h"
 #include "server/devices/saved_positions.h"
+#include "server/doors/doors.h"
 #include "server/end_signals.h"
 #include "server/gateway.h"
 #include "server/journal/journal.h"
@@ -33,7 +34,6 @@
 #include "server/log.h"
 #include "server/metrics/certificate_metrics.h"
 #include "server/metrics/journal_metrics.h"
-#include "server/rpc/server.h"
 #include "server/service_manager.h"
 #include "server/spare_memory.h"
 #include "server/spool/spool.h"
@@ -91,10 +91,10 @@ Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& 
 }
 
 // Returns null if no service manager waits for signs of life.
-std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& server) {
+std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, server::Doors& doors) {
   const std::optional<Duration> time = server::watchdog_time();
   if (!time) return nullptr;
-  std::vector<server::Watchdog::Thread> threads = server.threads();
+  std::vector<server::Watchdog::Thread> threads = doors.threads();
   for (server::Stage* stage : gateway.stages()) {
     threads.push_back(
         {fmt::format("the thread of the lines, at {},", stage->name()), [stage](std::function<void()> answer) {
@@ -140,11 +140,11 @@ std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirect
   return server::journal::Journal::unopened(path, opened.error());
 }
 
-void log_what_is_served(const server::Gateway& gateway, const rpc::Server& server, int metrics_port) {
+void log_what_is_served(const server::Gateway& gateway, const server::Doors& doors, int metrics_port) {
   const server::Config& config = gateway.config();
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(metrics_port)};
-  server::log::info("gRPC on {} and unix:{}", to_string(server.listen()), server.socket());
-  if (config.network) server::log::info("gRPC with TLS on {}", to_string(*server.network()));
+  server::log::info("gRPC on {} and unix:{}", to_string(doors.listen()), doors.socket());
+  if (config.network) server::log::info("gRPC with TLS on {}", to_string(*doors.network()));
   server::log::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
     server::log::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
@@ -167,17 +167,17 @@ int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_si
   if (!metrics_port) return complain(kExitFailed, explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
                                         .of_one = static_cast<std::size_t>(config.limits.connections)};
-  const auto server = rpc::Server::start(gateway, *kept.access, *kept.positions, limits);
-  if (!server) return complain(kExitFailed, explain(server.error()));
+  const auto doors = server::Doors::open(gateway, *kept.access, *kept.positions, limits);
+  if (!doors) return complain(kExitFailed, explain(doors.error()));
   if (config.network) {
     gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
     server::watch_certificate(config.network->certificate, gateway.timeouts());
   }
   if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(*kept.journal));
-  log_what_is_served(gateway, **server, *metrics_port);
+  log_what_is_served(gateway, **doors, *metrics_port);
   gateway.start();
   server::keep_little_spare_memory(gateway.timeouts());
-  const auto watchdog = watch(gateway, **server);
+  const auto watchdog = watch(gateway, **doors);
   server::notify_ready();
   end_signals.wait(gateway);
   return 0;

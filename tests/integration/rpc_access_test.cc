@@ -127,7 +127,7 @@ class RpcAccess : public RpcTest {
       options.pem_private_key = content(certificates_ + "/" + caller + ".key");
       options.pem_cert_chain = content(certificates_ + "/" + caller + ".crt");
     }
-    return grpc::CreateChannel(to_string(*server_->network()), grpc::SslCredentials(options));
+    return grpc::CreateChannel(to_string(*doors_->network()), grpc::SslCredentials(options));
   }
 
   static server::Calendar now() { return server::calendar_now(); }
@@ -171,7 +171,7 @@ class RpcAccess : public RpcTest {
   }
 
   std::shared_ptr<grpc::Channel> loopback() {
-    return grpc::CreateChannel(to_string(server_->listen()), grpc::InsecureChannelCredentials());
+    return grpc::CreateChannel(to_string(doors_->listen()), grpc::InsecureChannelCredentials());
   }
 
   std::string who(const std::shared_ptr<grpc::Channel>& channel, const std::string& authorization) {
@@ -203,7 +203,7 @@ TEST_F(RpcAccess, WithoutAToken) {
 
 // gRPC drops such a connection in its handshake.
 TEST_F(RpcAccess, ACertificateOfAnotherAuthorityOrAnExpiredOneOrNoTlsIsNoWayIn) {
-  const auto plain = grpc::CreateChannel(to_string(*server_->network()), grpc::InsecureChannelCredentials());
+  const auto plain = grpc::CreateChannel(to_string(*doors_->network()), grpc::InsecureChannelCredentials());
   for (const auto& channel : {tls("mallory"), tls("expired"), plain}) {
     const grpc::Status status = call(channel, "/axisgate.v1.AccessService/GetCaller");
     EXPECT_EQ(status.error_code(), grpc::UNAVAILABLE) << status.error_message();

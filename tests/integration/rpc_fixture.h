@@ -21,10 +21,10 @@
 #include "server/access/access.h"
 #include "server/connections/callers.h"
 #include "server/devices/saved_positions.h"
+#include "server/doors/doors.h"
 #include "server/events/wall_time.h"
 #include "server/gateway.h"
 #include "server/kinds.h"
-#include "server/rpc/server.h"
 
 namespace axisgate::rpc {
 
@@ -42,9 +42,9 @@ class RpcTest : public ::testing::Test {
     access_ = std::make_unique<server::Access>(config.access, server::caller_name(::geteuid()),
                                                *server::Tokens::open(directory_ + ".tokens"));
     positions_ = *server::SavedPositions::open(directory_ + ".positions");
-    auto started = Server::start(*gateway_, *access_, *positions_, limits_);
+    auto started = server::Doors::open(*gateway_, *access_, *positions_, limits_);
     ASSERT_TRUE(started) << started.error().message;
-    server_ = *std::move(started);
+    doors_ = *std::move(started);
     gateway_->start();
     channel_ = grpc::CreateChannel("unix:" + config.socket, grpc::InsecureChannelCredentials());
     devices_ = v1::DeviceService::NewStub(channel_);
@@ -60,7 +60,7 @@ class RpcTest : public ::testing::Test {
   virtual void configure(server::Config&) {}
 
   void TearDown() override {
-    server_.reset();
+    doors_.reset();
     gateway_.reset();
     std::filesystem::remove(directory_ + ".tokens");
     std::filesystem::remove(directory_ + ".positions");
@@ -185,7 +185,7 @@ class RpcTest : public ::testing::Test {
   std::unique_ptr<server::Access> access_;
   std::unique_ptr<server::SavedPositions> positions_;
   std::unique_ptr<server::Gateway> gateway_;
-  std::unique_ptr<Server> server_;
+  std::unique_ptr<server::Doors> doors_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::DeviceService::Stub> devices_;
   std::unique_ptr<v1::StageService::Stub> stage_;

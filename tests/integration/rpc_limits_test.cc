@@ -81,7 +81,7 @@ class RpcLimits : public RpcTest {
   Channel loopback() const {
     grpc::ChannelArguments arguments;
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return grpc::CreateCustomChannel(to_string(server_->listen()), grpc::InsecureChannelCredentials(), arguments);
+    return grpc::CreateCustomChannel(to_string(doors_->listen()), grpc::InsecureChannelCredentials(), arguments);
   }
 
   template <class Condition>
@@ -250,7 +250,7 @@ TEST_F(ConnectionLimitsTest, AConnectionTooManyIsServedAStopOnly) {
   expect_stops_get_through(new_channel());
   const Channel elsewhere = loopback();
   EXPECT_TRUE(ask(elsewhere, "/axisgate.v1.AccessService/GetCaller").ok());
-  EXPECT_EQ(server_->connections().open, 2u);
+  EXPECT_EQ(doors_->connections().open, 2u);
 }
 
 }  // namespace

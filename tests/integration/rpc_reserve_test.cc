@@ -98,7 +98,7 @@ TEST_F(ReserveTest, AClientThatWasRefusedIsServedOnceThereIsAPlace) {
     ASSERT_LT(monotonic_now(), limit);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  EXPECT_EQ(server_->connections().open, 1u);
+  EXPECT_EQ(doors_->connections().open, 1u);
 }
 
 }  // namespace

@@ -311,7 +311,7 @@ TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
   limit(context);
   const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
-  server_.reset();
+  doors_.reset();
   gateway_.reset();
   v1::WatchResponse response;
   while (stream->Read(&response)) {
@@ -321,13 +321,13 @@ TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
 
 TEST_F(RpcTest, ASecondServerIsRefused) {
   server::Config same_address = gateway_->config();
-  same_address.listen = server_->listen();
+  same_address.listen = doors_->listen();
   same_address.socket += "2";
   server::Gateway second(same_address, 2);
-  const auto tcp = Server::start(second, *access_, *positions_, limits_);
+  const auto tcp = server::Doors::open(second, *access_, *positions_, limits_);
   ASSERT_FALSE(tcp);
   EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
-  const auto socket = Server::start(*gateway_, *access_, *positions_, limits_);
+  const auto socket = server::Doors::open(*gateway_, *access_, *positions_, limits_);
   ASSERT_FALSE(socket);
   EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
 }

@@ -15,7 +15,7 @@ class SessionTest : public RpcTest {
   std::shared_ptr<grpc::Channel> tcp() const {
     grpc::ChannelArguments arguments;
     arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return grpc::CreateCustomChannel(to_string(server_->listen()), grpc::InsecureChannelCredentials(), arguments);
+    return grpc::CreateCustomChannel(to_string(doors_->listen()), grpc::InsecureChannelCredentials(), arguments);
   }
 
   static void prepare(grpc::ClientContext& context, const std::string& session) {

@@ -13,10 +13,10 @@
 #include "server/connections/callers.h"
 #include "server/connections/descriptor_limit.h"
 #include "server/devices/saved_positions.h"
+#include "server/doors/doors.h"
 #include "server/end_signals.h"
 #include "server/gateway.h"
 #include "server/log.h"
-#include "server/rpc/server.h"
 
 namespace axisgate {
 namespace {
@@ -73,7 +73,7 @@ int serve(const char* config_path) {
   const auto positions = *server::SavedPositions::open("");
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
   server::Gateway gateway(*config, 1);
-  const auto server = rpc::Server::start(gateway, access, *positions, {server::raise_descriptor_limit()});
+  const auto server = server::Doors::open(gateway, access, *positions, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);
     return 1;

@@ -10,7 +10,7 @@ _CLOCK = re.compile(
 )
 _CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/", "tests/clock/")
 _ASIO_FOLDERS = ("device/link/", "server/", "clients/")
-_DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
+_DAEMON = "server/axisgated.cc"  # its main(): joins the doors to the gateway
 _SIMULATOR = "device/shrc203/simulator/"
 _MILL_SIMULATOR = "device/rml1/simulator/"
 # Of the gateway's side the simulated mill knows the figures of machines alone.
@@ -19,17 +19,17 @@ _MILL_DATA = ("device/rml1/machine/profile.h", "device/rml1/machine/profile_file
 _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
-_FLOORS = {
-    "device/core": (0,), "device/config": (0,), "device/use": (1, 0), "device/stage": (1, 1), "device/jobs": (1, 2), "device/*": (1, 3),
-    "device": (1, 4),
+FLOORS = {
+    "device/core": (0,), "device/config": (0,), "device/use": (1, 0), "device/stage": (1, 1), "device/jobs": (1, 1), "device/*": (1, 2),
+    "device": (1, 3),
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
     "server/spool": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
-    "server": (3,), "server/api": (4,), "server/proto": (5,), "server/rpc": (6,), "clients": (7,), "tests": (8,),
+    "server": (3,), "server/api": (4,), "server/proto": (5,), "server/rpc": (6, 0), "server/doors": (6, 1), "clients": (7,), "tests": (8,),
 }
 # The rooms of a controller: what each is for stands in device/shrc203/README.md.
 _CONTROLLER = "device/shrc203/"
-_ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "state": 4, "session": 5, "motion": 6,
+ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "state": 4, "session": 5, "motion": 6,
           "transaction": 7}
 _FACE = ("controller.h", "controller.cc", "kind.h", "kind.cc")
 # Join controller and simulator for those who choose a kind by its name.
@@ -45,11 +45,11 @@ def room_of(path):
     """The floor and the room in which a project file lies, or nothing for what is not of the project."""
     top, *rest = path.split("/")
     if top in ("clients", "tests"):
-        return _FLOORS[top], top
+        return FLOORS[top], top
     if top not in ("device", "server"):
         return None
     room = f"{top}/{rest[0]}" if len(rest) > 1 else top
-    return _FLOORS.get(room, _FLOORS[f"{top}/*"]), room
+    return FLOORS.get(room, FLOORS[f"{top}/*"]), room
 
 
 def controller_room_of(path):
@@ -59,7 +59,7 @@ def controller_room_of(path):
     *folders, name = path[len(_CONTROLLER):].split("/")
     if not folders:
         return (8, "face") if name in _FACE else (0, "types")
-    return _ROOMS.get(folders[0], 9), folders[0]
+    return ROOMS.get(folders[0], 9), folders[0]
 
 
 def may_include(source, target):
@@ -73,7 +73,7 @@ def may_include(source, target):
         return True
     if source.startswith((_SIMULATOR + "program/", _MILL_SIMULATOR + "program/")) and there[1] == "device/link":
         return True
-    return source == _DAEMON and there[1] == "server/rpc"
+    return source == _DAEMON and there[1] == "server/doors"
 
 
 def includes_of(file):
@@ -160,7 +160,7 @@ _KINDS = "server/kinds.cc"
 
 
 def _names_a_kind(path, target):
-    of_a_kind = target.startswith("device/") and room_of(target)[0] == (1, 3) and room_of(target)[1] != "device/link"
+    of_a_kind = target.startswith("device/") and room_of(target)[0] == FLOORS["device/*"] and room_of(target)[1] != "device/link"
     return of_a_kind and path.startswith("server/") and path != _KINDS
 
 
@@ -175,7 +175,7 @@ def _is_protobuf(target):
 def _must_not_know_grpc(path):
     if path.startswith("device/"):
         return True
-    return path.startswith("server/") and not path.startswith("server/rpc/") and path != _DAEMON
+    return path.startswith("server/") and not path.startswith("server/rpc/")
 
 
 def _must_not_know_protobuf(path):

@@ -1,0 +1,189 @@
+#include "server/rpc/grpc_door.h"
+
+#include <fmt/format.h>
+#include <grpc/health/v1/health.grpc.pb.h>
+#include <grpc/support/log.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/server.h>
+#include <grpcpp/server_builder.h>
+
+#include <chrono>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "server/log.h"
+#include "server/rpc/calls/half_close.h"
+#include "server/rpc/calls/queue_waker.h"
+#include "server/rpc/calls/unreadable.h"
+#include "server/rpc/gate/call_filter.h"
+#include "server/rpc/gate/refusals.h"
+#include "server/rpc/gate/rpc_metrics.h"
+#include "server/rpc/services/access_service.h"
+#include "server/rpc/services/command_service.h"
+#include "server/rpc/services/control_service.h"
+#include "server/rpc/services/device_service.h"
+#include "server/rpc/services/diagnostics_service.h"
+#include "server/rpc/services/event_service.h"
+#include "server/rpc/services/health_service.h"
+#include "server/rpc/services/history_service.h"
+#include "server/rpc/services/mill_service.h"
+#include "server/rpc/services/position_service.h"
+#include "server/rpc/services/setting_service.h"
+#include "server/rpc/services/simulator_service.h"
+#include "server/rpc/services/stage_service.h"
+
+namespace axisgate::rpc {
+namespace {
+
+constexpr auto kShutdownWait = std::chrono::milliseconds(500);
+
+// gRPC's log lines add no information to the daemon's, so they are logged at debug level only.
+void log_quietly(gpr_log_func_args* line) { server::log::debug("gRPC: {}", line->message); }
+
+}  // namespace
+
+class GrpcDoor::Members {
+ public:
+  Members(server::Gateway& gateway, api::Api& api);
+
+  Result<void> start();
+  void enter(Descriptor connection);
+  void end();
+  server::Watchdog::Thread threads();
+
+  Refusals refusals;
+  CallFilter filter;
+
+ private:
+  void build();
+
+  server::Gateway& gateway_;
+  const HalfClose half_close_;
+  RpcMetrics rpc_metrics_;
+  DeviceService devices_;
+  StageService stage_;
+  EventService events_;
+  HistoryService history_;
+  CommandService commands_;
+  SettingService settings_;
+  SimulatorService simulators_;
+  PositionService positions_;
+  MillService mills_;
+  DiagnosticsService diagnostics_;
+  ControlService control_;
+  AccessService known_callers_;
+  HealthService health_;
+  std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
+  std::unique_ptr<grpc::Server> grpc_;                      // null before start()
+  std::shared_ptr<grpc::health::v1::Health::Stub> itself_;  // a client within this process
+  std::optional<QueueWaker> waker_;                         // none before start() and after end()
+  bool ended_ = false;
+};
+
+GrpcDoor::Members::Members(server::Gateway& gateway, api::Api& api)
+    : refusals(
+          *gateway.metrics().registry(),
+          [&gateway](Duration wait, std::function<void()> task) { gateway.timeouts().after(wait, std::move(task)); }),
+      filter(api, rpc_metrics_, refusals),
+      gateway_(gateway),
+      half_close_(gateway),
+      rpc_metrics_(*gateway.metrics().registry()),
+      devices_(api.devices),
+      stage_(api.motions, api.paths, api.jogs, half_close_),
+      events_(api.events),
+      history_(api.history, gateway),
+      commands_(api.commands),
+      settings_(api.settings),
+      simulators_(api.simulators),
+      positions_(api.positions),
+      mills_(api.mill, half_close_),
+      diagnostics_(api.diagnostics),
+      control_(api.leases),
+      known_callers_(api.tokens),
+      health_(api.streams) {}
+
+Result<void> GrpcDoor::Members::start() {
+  gpr_set_log_function(log_quietly);
+  build();
+  if (grpc_ == nullptr) {
+    return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
+  }
+  const auto itself = grpc_->InProcessChannel({});
+  itself_ = grpc::health::v1::Health::NewStub(itself);
+  waker_.emplace(itself, gateway_.timeouts());
+  return {};
+}
+
+void GrpcDoor::Members::build() {
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  // gRPC would otherwise estimate the bandwidth and raise the length of frames, which the front bounds.
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
+           &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &mills_,
+           &diagnostics_, &control_, &known_callers_, &health_}) {
+    builder.RegisterService(service);
+  }
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(unreadable_interceptor());
+  interceptors.push_back(refusals.interceptor());
+  interceptors.push_back(rpc_metrics_.interceptor());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  builder.SetMaxReceiveMessageSize(gateway_.config().limits.message_bytes);
+  // The front bounds metadata.
+  constexpr int kMetadataBytes = 64 << 10;
+  builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMetadataBytes);
+  using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+  // The front identifies and authorizes the caller.
+  acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, grpc::InsecureServerCredentials());
+  grpc_ = builder.BuildAndStart();
+}
+
+// gRPC's threads answer when a call that the daemon makes to itself has passed through them.
+server::Watchdog::Thread GrpcDoor::Members::threads() {
+  const auto ask = [itself = itself_](std::function<void()> answer) {
+    struct Call {
+      grpc::ClientContext context;
+      grpc::health::v1::HealthCheckRequest request;
+      grpc::health::v1::HealthCheckResponse response;
+    };
+    const auto call = std::make_shared<Call>();
+    itself->async()->Check(&call->context, &call->request, &call->response,
+                           [call, answer = std::move(answer)](const grpc::Status& status) {
+                             if (status.ok()) answer();
+                           });
+  };
+  return {"gRPC", ask};
+}
+
+void GrpcDoor::Members::enter(Descriptor connection) {
+  grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
+  parameters.fd = connection.release();
+  acceptor_->HandleNewConnection(&parameters);
+}
+
+void GrpcDoor::Members::end() {
+  waker_.reset();
+  if (grpc_ == nullptr || std::exchange(ended_, true)) return;
+  grpc_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
+  grpc_->Wait();
+}
+
+GrpcDoor::GrpcDoor(server::Gateway& gateway, api::Api& api) : members_(std::make_unique<Members>(gateway, api)) {}
+
+GrpcDoor::~GrpcDoor() { members_->end(); }
+
+Result<void> GrpcDoor::start() { return members_->start(); }
+
+void GrpcDoor::enter(Descriptor connection) { members_->enter(std::move(connection)); }
+
+void GrpcDoor::end() { members_->end(); }
+
+front::CallFilter& GrpcDoor::filter() { return members_->filter; }
+
+void GrpcDoor::note(const front::Peer& peer, const front::Closing& closing) { members_->refusals.note(peer, closing); }
+
+server::Watchdog::Thread GrpcDoor::threads() { return members_->threads(); }
+
+}  // namespace axisgate::rpc
