@@ -19,7 +19,7 @@
 #include "device/jobs/measured_pace.h"
 #include "device/jobs/running_job.h"
 #include "device/jobs/send_settings.h"
-#include "device/stage/requests.h"
+#include "device/use/request_context.h"
 
 namespace axisgate::jobs {
 

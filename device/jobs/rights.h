@@ -9,8 +9,8 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/jobs/job.h"
-#include "device/stage/requests.h"
 #include "device/use/permission.h"
+#include "device/use/request_context.h"
 
 namespace axisgate::jobs {
 

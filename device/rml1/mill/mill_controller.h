@@ -27,8 +27,8 @@
 #include "device/rml1/mill/job_run.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/sending/abort.h"
-#include "device/stage/requests.h"
 #include "device/use/permission.h"
+#include "device/use/request_context.h"
 
 namespace axisgate::rml1 {
 

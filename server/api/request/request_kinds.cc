@@ -74,8 +74,8 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::move_job,          "move job",            Role::operator_, Key::none,         Quota::request, DeadlineRule::change,   Use::nothing,   true},
     {Kind::report_job_done,   "report job done",     Role::operator_, Key::none,         Quota::request, DeadlineRule::change,   Use::nothing,   true},
     {Kind::operate_mill,      "operate mill",        Role::operator_, Key::none,         Quota::request, DeadlineRule::change,   Use::axes,      true},
-    {Kind::ask_server,           "ask door",             Role::observer,  Key::none,         Quota::request, DeadlineRule::question, Use::nothing,   false},
-    {Kind::watch_server,         "watch door",           Role::observer,  Key::none,         Quota::stream,  DeadlineRule::question, Use::nothing,   false},
+    {Kind::ask_server,           "ask server",           Role::observer,  Key::none,         Quota::request, DeadlineRule::question, Use::nothing,   false},
+    {Kind::watch_server,         "watch server",         Role::observer,  Key::none,         Quota::stream,  DeadlineRule::question, Use::nothing,   false},
     {Kind::unlisted,           "unlisted",             Role::admin,     Key::none,         Quota::request, DeadlineRule::question, Use::nothing,   false},
 }};
 // clang-format on

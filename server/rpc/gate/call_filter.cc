@@ -82,8 +82,9 @@ Decision CallFilter::decide(const Headers& headers, const Peer& peer, bool stops
   const Result<server::Caller> caller = api_.admission.let_in(kind, credential_for_limits(headers, peer), method);
   if (!caller) return refused(headers, peer, caller.error());
   const std::string named = caller->who == kAnonymous ? "" : caller->who;
+  const auto what = OwnAnswers::row_of(kind) != nullptr ? Decision::What::answer : Decision::What::forward;
   if (api::rule_of(kind).quota == api::Quota::none) {
-    return {.what = Decision::What::answer, .uncounted = true, .caller = named};
+    return {.what = what, .path = served_as(method), .uncounted = true, .caller = named};
   }
   // gRPC itself would answer CANCELLED.
   if (const auto ending = api_.streams.ending()) {
@@ -94,10 +95,8 @@ Decision CallFilter::decide(const Headers& headers, const Peer& peer, bool stops
     metrics_.count(method, grpc::RESOURCE_EXHAUSTED);
     return refused(headers, peer, nothing_left());
   }
-  return {.what = OwnAnswers::row_of(kind) != nullptr ? Decision::What::answer : Decision::What::forward,
-          .place = api_.admission.take_place(kind, caller->who),
-          .path = served_as(method),
-          .caller = named};
+  return {
+      .what = what, .place = api_.admission.take_place(kind, caller->who), .path = served_as(method), .caller = named};
 }
 
 front::Decision CallFilter::refused(const Headers& headers, const Peer& peer, const Problem& problem) {
