@@ -1,4 +1,4 @@
-// Range of a value, empty until a value is taken.
+// Ranges of values; a range is empty until it takes its first value.
 #pragma once
 
 #include <algorithm>

@@ -33,7 +33,7 @@ Result<void> check_same_setup(const Job& job, const JobSetup& seen) {
 
 }  // namespace
 
-// The workpiece of a job that ran may still be in the mill.
+// Fails if a job is FED or PAUSED_UNKNOWN, because its workpiece may still be in the mill.
 Result<void> Confirmations::check_settled() const {
   if (!guarded(MillGuard::settled_before_next)) return {};
   const auto& jobs = queue_.jobs();
@@ -71,7 +71,7 @@ Result<void> Confirmations::check_next(JobNumber number) const {
               "confirm that one, or have it cancelled; `axisctl mill first` moves a job forward");
 }
 
-// A job that continues the workpiece of another was checked with the heights of that one.
+// A job that continues the workpiece of another job was checked with the heights of that job, so Z0 must be the same.
 Result<void> Confirmations::check_surface(const Job& job) const {
   const bool as_checked = job.surfaces == left_.surfaces();
   if (job.continues == 0 || job.setup.from || !waits_to_begin(job) || as_checked) return {};

@@ -1,5 +1,5 @@
 // Confirmations: before a job begins, a person at the mill says that the material and the tool are in, that the origin
-// is set, and that nothing is in the way. README.md says for how long that counts.
+// is set, and that no obstacle is in the machine. README.md says for how long a confirmation is valid.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ namespace axisgate::jobs {
 // Not thread safe.
 class Confirmations {
  public:
-  // The referenced objects must outlive this one. `lasts`: time for which a confirmation counts.
+  // The referenced objects must outlive this one. `lasts`: time for which a confirmation is valid.
   Confirmations(JobQueue& queue, const SetupLeft& left, Duration lasts) : queue_(queue), left_(left), lasts_(lasts) {}
 
-  // Fails with not_found, or with wrong_mode if the job is not the next one, or if what became of the last one is not
-  // known. Call it while no job runs.
+  // Checks that the job is the next to be confirmed. Fails with not_found. Fails with wrong_mode if the job does not
+  // wait, if another job comes first, or if a job is FED or PAUSED_UNKNOWN. Call it only while no job runs.
   Result<void> check_next(JobNumber number) const;
-  // Confirms a job for which check_next() has passed. Fails with stale_setpoint if `seen` is not what the job needs, or
-  // not what the jobs before have left.
+  // Confirms a job for which check_next() has passed. Fails with stale_setpoint if `seen` differs from the job's setup,
+  // or if Z0 was sent to the mill since the workpiece that the job continues was begun.
   Result<void> confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now);
-  // Fails with not_allowed if the job is not, or no longer, confirmed.
+  // Fails with not_allowed if the job is not confirmed, or no longer confirmed.
   Result<void> check(const Job& job, TimePoint now) const;
-  // Voids the confirmation, if there is one. `why`: for people.
+  // Voids the confirmation, if there is one. `why`: reason, for people.
   void make_void(std::string_view why, TimePoint now);
   // Voids a confirmation that has expired.
   void advance(TimePoint now);

@@ -1,4 +1,4 @@
-// Extent of a job, for people.
+// Extent of a job, as displayed to people.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Acts by hand: what a person does with a machine besides jobs.
+// Acts by hand: operations of a machine that a person requests while no job runs.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace axisgate::jobs {
 
-// A JogStep moves the tool relative to its place; Z upward.
+// A JogStep moves the tool relative to its present position; positive Z is up.
 struct JogStep {
   double x_mm = 0, y_mm = 0, z_mm = 0;
-  std::optional<double> mm_per_s{};  // nullopt: the machine's usual speed in Z
+  std::optional<double> mm_per_s{};  // nullopt: the machine's default speed in Z
 };
 
-// Sets Z0 of later jobs. X and Y are set at the machine's panel only.
+// Sets Z0 for later jobs. X and Y can be set only at the machine's panel.
 struct SetSurface {
-  std::optional<std::int64_t> at{};  // machine coordinate, in steps; nullopt: where the tool is
+  std::optional<std::int64_t> at{};  // machine coordinate, in steps; nullopt: the present height of the tool
 };
 
 struct TurnSpindle {
@@ -28,7 +28,7 @@ struct RaiseTool {};
 
 using HandAct = std::variant<JogStep, SetSurface, TurnSpindle, RaiseTool>;
 
-// Returns "jog by X 5 mm, Z -0.5 mm", for the log and the journal.
+// Returns the act as text for the log and the journal: "jog by X 5 mm, Z -0.5 mm".
 std::string text_of(const HandAct& act);
 
 }  // namespace axisgate::jobs

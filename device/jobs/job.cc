@@ -95,7 +95,7 @@ bool waits_to_begin(const Job& job) {
   return job.state == JobState::queued || (job.state == JobState::confirmed && void_event(job) == JobEvent::make_void);
 }
 
-// A rest that was begun has a range of what was written.
+// A rest that was begun and paused or lost has Job::written.
 bool is_fresh_rest(const Job& job) { return job.setup.from && !job.written; }
 
 JobEvent void_event(const Job& job) {

@@ -1,4 +1,4 @@
-// A job of a mill: what it is, what it needs set up at the mill, and its states.
+// A job of a mill: its data, the setup at the mill that it needs, and its states.
 #pragma once
 
 #include <cstddef>
@@ -19,35 +19,35 @@
 
 namespace axisgate::jobs {
 
-using JobNumber = std::uint64_t;  // of one mill; 0: none
+using JobNumber = std::uint64_t;  // numbers of each mill are separate; 0: no job
 
-// A JobSetup is what a person sets up at the mill for a job. A confirmation counts for exactly this.
+// A JobSetup describes how a person must set up the mill for a job. A confirmation is valid only for the same JobSetup.
 struct JobSetup {
-  std::string digest;   // of its bytes: PreparedJob::digest()
-  std::string profile;  // its name
-  std::string origin;   // the name of a configured origin; empty: as it is set at the panel
-  std::string tool;     // a configured name; of a job in parts, that of Job::part
-  // Settings of the job before that no command can undo, as text: left_by(). Only the first job that waits has them,
-  // and not between its parts.
+  std::string digest;   // digest of the job's bytes: PreparedJob::digest()
+  std::string profile;  // name of the profile
+  std::string origin;   // name of a configured origin; empty: set at the panel
+  std::string tool;     // configured name of the tool; for a job in parts, the tool of Job::part
+  // Settings of the previous job that no command can undo, as text: left_by(). Empty for all jobs except the first
+  // waiting job, and empty if that job was begun before.
   std::vector<std::string> left{};
-  // Place where it continues, in its file or that of the part; nullopt if it begins at its beginning.
+  // Place at which the job continues, in its file or in the file of its part; nullopt: at the beginning.
   std::optional<Place> from{};
 
   friend bool operator==(const JobSetup&, const JobSetup&) = default;
 };
 
-// One file of a job, sent as a job in itself. Between two of them somebody changes the tool.
+// A JobPart is one file of a job, and is sent like a whole job. The operator changes the tool between two parts.
 struct JobPart {
-  std::string tool;       // a configured name
-  std::uint64_t end = 0;  // byte of the job after its last byte
-  TimeRange takes{};      // when it is sent; the rest alone, where it is continued
-  RunOn run_on{};         // likewise
+  std::string tool;       // configured name of the tool
+  std::uint64_t end = 0;  // offset in the job, just past the last byte of the part
+  TimeRange takes{};      // time to send and execute the part, or only its rest if it continues in its middle
+  RunOn run_on{};         // bound for the part, or only for its rest
 
   friend bool operator==(const JobPart&, const JobPart&) = default;
 };
 inline constexpr std::size_t kPartsAtMost = 16;
 
-// README.md has the table of what leads from one to another.
+// States of a job. README.md has the table of states and events.
 enum class JobState {
   queued,
   confirmed,
@@ -59,7 +59,7 @@ enum class JobState {
   cancelled,
   tool_change,
   paused,
-  expired  // last: kJobStates
+  expired  // must be the last value: kJobStates
 };
 inline constexpr std::size_t kJobStates = static_cast<std::size_t>(JobState::expired) + 1;
 std::string_view name(JobState state);  // "QUEUED" ...
@@ -68,27 +68,27 @@ bool is_end(JobState state);
 
 enum class JobEvent {
   confirm,
-  make_void,        // of the first part
-  make_void_later,  // of a later one
-  make_void_rest,   // of one that is continued
+  make_void,        // the confirmation is void; the job was not begun
+  make_void_later,  // the confirmation is void; a later part is next
+  make_void_rest,   // the confirmation is void; the rest of a begun part is next
   start,
-  raised,
-  choose_rest,  // the place from which it is continued
-  part_fed,     // and there is another one
+  raised,       // paused, with the tool up
+  choose_rest,  // the place at which the job continues was chosen
+  part_fed,     // the mill has executed a part, and another part follows
   fed,
   aborted,
-  abort_unsure,  // the mill may have dropped the abort
+  abort_unsure,  // the abort was sent, but the mill may have dropped it
   lost,
   done,
   cancel,
-  expire  // last: kJobEvents
+  expire  // must be the last value: kJobEvents
 };
 inline constexpr std::size_t kJobEvents = static_cast<std::size_t>(JobEvent::expire) + 1;
 std::string_view name(JobEvent event);  // "confirm", as in README.md
-// Returns the state after the event; nullopt if the table has none.
+// Returns the state after the event; nullopt if the table does not allow the event.
 std::optional<JobState> next(JobState state, JobEvent event);
 
-// A range of what was written, in bytes of the job.
+// Number of written bytes of a job, as a range.
 struct WrittenRange {
   std::uint64_t least = 0, most = 0;
 
@@ -96,72 +96,73 @@ struct WrittenRange {
 };
 
 struct Confirmation {
-  std::string by;     // the caller at the mill
-  TimePoint until{};  // exclusive
+  std::string by;     // caller who has confirmed the job at the mill
+  TimePoint until{};  // end of the confirmation, exclusive
 };
 
 struct Job {
   JobNumber number = 0;
-  std::string name{};  // a person's text
+  std::string name{};  // text, chosen by a person
   std::string owner{};
   JobSetup setup{};
   std::uint64_t bytes = 0;
   JobState state = JobState::queued;
-  std::optional<Confirmation> confirmation{};  // while it is confirmed
-  std::string void_because{};             // why its last confirmation does not count; empty: it does, or there was none
-  std::optional<WrittenRange> written{};  // of one that was lost or paused, until it continues
-  std::optional<PlaceRange> executed{};   // PreparedJob::executed() of one whose abort was requested
-  std::vector<JobPart> parts{};           // at most kPartsAtMost; none: all of it is one, and its time is not known
-  std::size_t part = 0;                   // runs, or is the next to
+  std::optional<Confirmation> confirmation{};  // nullopt unless the job is CONFIRMED
+  std::string void_because{};             // why the last confirmation is void; empty: it is valid, or there was none
+  std::optional<WrittenRange> written{};  // set when the job is lost or paused, until it continues
+  std::optional<PlaceRange> executed{};   // PreparedJob::executed() when an abort was requested; nullopt: no abort
+  std::vector<JobPart> parts{};           // at most kPartsAtMost; empty: a single part, whose duration is unknown
+  std::size_t part = 0;                   // index of the part that runs, or runs next
   Leaves leaves{};                        // of all parts
   Extent extent{};                        // of all parts
-  std::vector<std::string> accepted{};    // names of the warnings of its check that its sender accepts
-  std::int64_t rank = 0;                  // as is_before() has it; 0 as it was sent
-  std::optional<Streaming> streaming{};   // none: as the mill has it
-  std::optional<Stock> stock{};           // none: nobody has said it
-  JobNumber continues = 0;                // the job whose workpiece it continues; 0: the workpiece is new
-  std::uint64_t surfaces = 0;             // MillController::surfaces() when it was started last
-  std::string checked_for{};              // a digest of the profile and the origin with which it was checked
-  std::string planned_for{};              // a text of the settings with which its times were computed
-  TimePoint queued_since{};               // when it was sent, or when its last confirmation became void
+  std::vector<std::string> accepted{};    // names of the warnings that the sender of the job accepts
+  std::int64_t rank = 0;                  // order in the queue, see is_before(); 0 for a new job
+  std::optional<Streaming> streaming{};   // nullopt: as configured for the mill
+  std::optional<Stock> stock{};           // nullopt: unknown
+  JobNumber continues = 0;                // the job whose workpiece this job continues; 0: the workpiece is new
+  std::uint64_t surfaces = 0;             // Machine::surfaces() at the last start; before a start, see Machine::add()
+  std::string checked_for{};              // digest of the profile and the origin that the check used
+  std::string planned_for{};              // settings with which the times were computed, as text
+  TimePoint queued_since{};               // when the job was sent, or when its last confirmation became void
 };
 
-// Reports whether `one` is before `other` in the queue: jobs that were begun or are confirmed are before those that are
-// QUEUED; then the lower rank counts; then the lower number.
+// Reports whether `one` is before `other` in the queue. Jobs that were begun or are confirmed are before QUEUED jobs.
+// Otherwise the job with the lower rank comes first; with equal ranks, the job with the lower number.
 bool is_before(const Job& one, const Job& other);
 
-// Bytes of the job: where Job::part begins and ends.
+// Offsets in the job of the beginning and the end of Job::part.
 std::uint64_t part_begin(const Job& job);
 std::uint64_t part_end(const Job& job);
 bool is_last_part(const Job& job);
-// The byte of the job with which its part continues.
+// Offset in the job of the byte at which Job::part begins or continues.
 std::uint64_t next_byte(const Job& job);
-// Another part is the next, with its tool, from its beginning.
+// Makes `part` the next part, with its tool, from its beginning.
 void go_to_part(Job& job, std::size_t part);
-// Reports whether the job can be confirmed, or is.
+// Reports whether the job can be confirmed, or is confirmed.
 bool is_waiting(const Job& job);
-// Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
+// Reports whether the job waits and none of it was sent, so that its workpiece is not in the mill yet.
 bool waits_to_begin(const Job& job);
-// Returns the time to send and execute its part and all later parts, without the time of people between them.
+// Returns the time to send and execute Job::part and all later parts, without the tool changes between them.
 TimeRange takes(const Job& job);
-// Returns the time of the later parts alone.
+// Returns the time to send and execute the parts after Job::part, without the tool changes.
 TimeRange takes_later(const Job& job);
-// Returns what runs on after an abort of its part; nothing where that has not been planned.
+// Returns the run-on bound of Job::part; nullopt if it was not computed.
 std::optional<RunOn> run_on(const Job& job);
-// Sets both for its part.
+// Sets the time and the run-on bound of Job::part.
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
-// Reports whether it is the rest of another job (MillController::add()), and nothing of it was sent.
+// Reports whether the job is the rest of another job (Machine::add()) and none of it was sent.
 bool is_fresh_rest(const Job& job);
-// Returns the event of a confirmation that becomes void.
+// Returns the event to use when the confirmation of the job becomes void.
 JobEvent void_event(const Job& job);
 
-// "job 7 (part.rml) sets Z0": what the jobs after it find, for people.
+// Returns the settings that the job leaves and no command can undo, for people: "job 7 (part.rml) sets Z0".
 std::vector<std::string> left_by(const Job& job);
 
-// "by the mill's profile what was executed ends between line 8, column 1 and line 13, column 1".
+// Returns Job::executed, which must be set, as text: "by the mill's profile what was executed ends between line 8,
+// column 1 and line 13, column 1".
 std::string executed_text(const Job& job);
 
-// "job 7 (part.rml, by unix anna)".
+// Returns the job as text for people: "job 7 (part.rml, by unix anna)".
 std::string text_of(const Job& job);
 
 }  // namespace axisgate::jobs

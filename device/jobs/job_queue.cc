@@ -10,7 +10,7 @@
 namespace axisgate::jobs {
 namespace {
 
-// The jobs that `moved` is to be before, in their order, and it itself as the last.
+// Returns the jobs that `moved` overtakes, in the order of the queue, and then `moved`.
 std::vector<Job*> overtaken_by(std::vector<Job>& jobs, const Job& moved, Overtaken overtaken) {
   std::vector<Job*> found;
   for (Job& job : jobs) {
@@ -85,7 +85,7 @@ void JobQueue::abandon(Job& job, std::string_view why, TimePoint now) {
   events_.job_changed(job, "", why, now);
 }
 
-// A person who confirms the middle of a job confirms the tool and Z0 in any case.
+// A job that was begun shows no settings: the person who confirms it confirms the tool and Z0 in any case.
 void JobQueue::show_left() {
   for (Job& job : jobs_) job.setup.left.clear();
   const auto first = std::ranges::find_if(jobs_, is_waiting);
@@ -111,8 +111,8 @@ Result<void> JobQueue::move_first(JobNumber number, Overtaken overtaken, std::st
   return {};
 }
 
-// Ranks are given from the last job forward, so that none is above 0: a job that is sent later has 0, and is after all
-// of them.
+// Sets the ranks from the last job to the first, so that no rank is above 0: a job that is sent later has the rank 0,
+// and comes after all these jobs.
 void JobQueue::rank_as_ordered() {
   for (std::size_t place = jobs_.size() - 1; place > 0; --place) {
     Job& job = jobs_[place - 1];

@@ -15,58 +15,60 @@
 
 namespace axisgate::jobs {
 
-// QUEUED jobs that a moved job overtakes.
+// QUEUED jobs that a moved job overtakes: all, or only the jobs of its owner.
 enum class Overtaken { all, of_its_owner };
 
-// Listens to a queue. Called from within its members; must not call back.
+// Receives the events of a queue. Called from the functions of the queue; must not call the queue.
 class QueueEvents {
  public:
   virtual ~QueueEvents() = default;
 
-  // The job was added, has another state, or was moved. `by`: who requested that; empty: nobody. `why`: for people; may
-  // be empty.
+  // Reports that the job was added or moved, or has changed its state. `by`: the caller who requested this; empty if no
+  // caller did. `why`: reason, for people; may be empty.
   virtual void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint now) = 0;
-  // The rank must be kept: by it the order of the queue outlives a restart.
+  // Reports a new rank. The rank must be stored, so that the order of the queue survives a restart.
   virtual void rank_changed(const Job& job) = 0;
 };
 
 // Not thread safe.
 class JobQueue {
  public:
-  // The referenced objects must outlive this one. `queued_at_most`: time after which a job that nobody has confirmed
-  // ends.
+  // The referenced objects must outlive this one. `queued_at_most`: time after which an unconfirmed job expires.
   JobQueue(const SetupLeft& left, Duration queued_at_most, QueueEvents& events, Violations& violations)
       : left_(left), queued_at_most_(queued_at_most), events_(events), violations_(violations) {}
 
-  // Takes over a job of the run before, at the place that is_before() gives it.
+  // Takes over a job of the previous run, in the order of is_before().
   void inherit(Job job);
-  // Puts the job after all others. The numbers ascend.
+  // Adds the job after all other jobs. Its number must be greater than theirs.
   void add(Job job, TimePoint now);
 
-  // Fails with not_found.
+  // Returns the job. Fails with not_found.
   Result<Job*> find(JobNumber number);
-  // The job, which is in the queue.
+  // Returns the job, which must be in the queue.
   Job& at(JobNumber number);
-  // Fails with not_found, or with wrong_mode if the job's state does not have the event.
+  // Applies an event that a caller requests. Fails with not_found, or with wrong_mode if the job's state does not allow
+  // the event.
   Result<void> request(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
-  // Changes the state of a job of this queue; a job that has ended leaves the queue. An event that the state does not
-  // have is reported, and changes nothing.
+  // Applies an event to a job of this queue. A job that has ended leaves the queue. An event that the job's state does
+  // not allow is reported as a violation and has no effect.
   void change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now);
-  // After an internal error: the job is PAUSED_UNKNOWN, whatever its state was.
+  // Makes the job PAUSED_UNKNOWN after an internal error, whatever its state is.
   void abandon(Job& job, std::string_view why, TimePoint now);
-  // The job takes the place of the first QUEUED one of those that it may be before; each of these takes that of the
-  // next one. Fails with not_found, or with wrong_mode if it is not QUEUED.
+  // Moves a job before the QUEUED jobs that it overtakes: it takes the place of the first of them, the first takes the
+  // place of the second, and so on. Fails with not_found, or with wrong_mode if the job is not QUEUED.
   Result<void> move_first(JobNumber number, Overtaken overtaken, std::string_view by, TimePoint now);
-  // Ends the jobs that nobody has confirmed in time.
+  // Ends the QUEUED jobs that nobody has confirmed in time.
   void expire(TimePoint now);
   std::optional<TimePoint> next_expiry() const;
 
-  // Shows what was left to the first job that waits to begin. Call it when SetupLeft has changed.
+  // Sets JobSetup::left of the first waiting job if it was not begun, and clears it in all other jobs. Call this after
+  // SetupLeft has changed.
   void show_left();
 
   const std::vector<Job>& jobs() const { return jobs_; }
-  const Job* first_in(JobState state) const;  // null if there is none
-  // The first job that can be confirmed, or is; null if there is none.
+  // First job in this state; null if there is none.
+  const Job* first_in(JobState state) const;
+  // First job that can be confirmed or is confirmed; null if there is none.
   const Job* first_waiting() const;
 
   // Text of the first invariant that does not hold; empty if all do.

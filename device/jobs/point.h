@@ -1,4 +1,4 @@
-// Place of the tool, in steps.
+// Position of the tool, in steps.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@ struct Point {
   friend Point operator*(const Point& a, double factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
 };
 
-// Returns `p`, or the point where the straight path from `p` to `other` goes through the surface if `p` is above it. At
-// least one of the two must be at or below the surface.
+// Returns `p` if it is at or below the surface. Otherwise returns the point at which the straight path from `p` to
+// `other` reaches the surface; `other` must then be at or below it.
 inline Point sunk(const Point& p, const Point& other) {
   return p.z <= 0 ? p : p + (other - p) * (p.z / (p.z - other.z));
 }

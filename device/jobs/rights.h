@@ -1,4 +1,4 @@
-// Rights to a mill, which is leased as a whole: the requests of its controller to the keeper of leases.
+// The right to use a mill, which is leased as a whole: the requests of the mill's controller to the Permission.
 #pragma once
 
 #include <functional>
@@ -20,14 +20,15 @@ class Rights {
   // The permission must outlive this object.
   explicit Rights(use::Permission& permission) : permission_(permission) {}
 
-  // Fails as Permission::authorize() does. `job`: the job that is to run; 0: none.
+  // Fails as Permission::authorize() does. `job`: the job to run; 0: no job.
   Result<void> authorize(const use::RequestContext& by, JobNumber job, TimePoint now);
-  // The job occupies the mill until it ends.
+  // Reports that the job occupies the mill until job_ends().
   void job_begins(const Job& job, const use::RequestContext& by, TimePoint now);
   void job_ends(JobNumber job, TimePoint now) { permission_.end(job, now); }
-  // Holds back those whose job a stop ends, until they rearm.
+  // Reports a stop of the mill. Other callers whose job it ends, or whose lease it affects, must then rearm.
   void stop_asked(const use::RequestContext& by, TimePoint now);
-  // Calls `abort` for each lease whose loss ends a job, on behalf of whom it names.
+  // Calls `abort` for each stop that is due because a caller has lost the right to the mill. `who`: the person or
+  // caller on whose behalf the mill is stopped.
   void advance(const std::function<void(std::string_view who)>& abort, TimePoint now);
   std::optional<TimePoint> next_deadline() const { return permission_.next_deadline(); }
 

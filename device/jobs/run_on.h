@@ -1,4 +1,4 @@
-// Bound on what a machine executes after an abort.
+// Bound on how much of a job a machine executes after an abort.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,16 @@
 
 namespace axisgate::jobs {
 
-// A RunOn bounds what a mill may still execute after an abort, in bytes of the job.
+// A RunOn is the greatest number of bytes of the job that a mill may still execute after an abort.
 struct RunOn {
-  // For a mill that executes, takes no longer than SendSettings::slack allows, and began at the top above the work
-  // origin.
+  // For a mill that is not paused at its panel, takes no longer than SendSettings::slack allows, and began the job with
+  // the tool at the top above the work origin.
   std::size_t at_most = 0;
-  // For a mill that its panel holds, once it is released.
+  // For a mill that is paused at its panel: bytes that it may execute after it is released.
   std::size_t if_held = 0;
-  // Longest time that the slowest mill needs for any `at_most` bytes of the job.
+  // Longest time that the slowest mill needs for any `at_most` consecutive bytes of the job.
   Duration longest{};
-  // Longest distance that its tool moves in that time.
+  // Longest distance, in mm, that the tool moves for any `at_most` consecutive bytes of the job.
   double mm = 0;
 
   friend bool operator==(const RunOn&, const RunOn&) = default;

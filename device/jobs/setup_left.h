@@ -1,4 +1,5 @@
-// The state in which jobs and people leave a mill, as far as no command can undo it: it never says what was set.
+// Settings that jobs and people leave in a mill and that no command can undo, because a mill never reports its
+// settings.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +12,25 @@ namespace axisgate::jobs {
 
 class SetupLeft {
  public:
-  // Takes over the job that was begun last in the runs before, whatever has become of it.
+  // Takes over the job that was begun last in the daemon's earlier runs, whatever its state is now.
   void inherit(const Job& last) { last_ = {.number = last.number, .name = last.name, .leaves = last.leaves}; }
   void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
 
-  // Notes that the job begins: what earlier jobs have left no longer counts.
+  // Notes that the job begins. Its settings replace those of the job before.
   void job_begins(const Job& job) { inherit(job); }
-  // Notes that a person sets Z0 by hand.
+  // Notes that a person sets Z0 by hand, so that the Z0 of the last job no longer counts.
   void surface_set_by_hand() { last_.leaves.surface = false; }
-  // Counts that Z0 is sent. Returns the new surfaces().
+  // Notes that Z0 is sent to the mill once more. Returns the new surfaces().
   std::uint64_t count_surface() { return ++surfaces_; }
 
-  // "job 7 (part.rml) sets Z0": texts for the person who confirms the next job.
+  // Returns the settings as texts for the person who confirms the next job: "job 7 (part.rml) sets Z0".
   std::vector<std::string> texts() const { return left_by(last_); }
-  // Number of times that Z0 was sent, by hand or by a job. Z0 set at the panel is not counted: nobody sees it.
+  // Number of times that Z0 was sent, by hand or by a job. Z0 set at the panel is not counted, because the daemon
+  // cannot detect it.
   std::uint64_t surfaces() const { return surfaces_; }
 
  private:
-  Job last_;  // its number, its name and what it leaves
+  Job last_;  // job that was begun last; only its number, its name and its leaves are set
   std::uint64_t surfaces_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// A duration that is known as a range: a machine that is sent jobs never says how fast it is.
+// A duration that is known only as a range, because a machine that is sent jobs never reports its speed.
 #pragma once
 
 #include "device/core/time.h"

@@ -14,7 +14,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// A number as RML-1 has it, without an exponent (guideline 2-3); a millionth of a step is no way.
+// Returns a number in the notation of RML-1, without an exponent (guideline 2-3), rounded to a millionth of a step.
 std::string decimal(double value) {
   std::string text = fmt::format("{:.6f}", value);
   text.erase(text.find_last_not_of('0') + 1);
@@ -22,8 +22,8 @@ std::string decimal(double value) {
   return text == "-0" ? "0" : text;
 }
 
-// "When Z2 is outside the work area, ... actual Z2 operation stops at the topmost location" (guideline 3-3 !PZ):
-// wherever Z0 is, the tool travels there.
+// "When Z2 is outside the work area, ... actual Z2 operation stops at the topmost location" (guideline 3-3 !PZ): so the
+// tool travels at the top, whatever the height of Z0 is.
 constexpr std::string_view kTravelAtTheTop = "!PZ0,8388607;";
 
 tl::unexpected<Problem> no_way(const Prefix& prefix, std::string_view why) {
@@ -64,11 +64,13 @@ std::string modes(const Prefix& prefix) {
   return words;
 }
 
-// "Rotation is performed at the time of a command that involves movement" (guideline 5-2): at the top, before the way
-// down. One that is permitted and rests would else start with the next movement, in the material.
+// Returns the commands that start the spindle at the top, before the descent; empty if the spindle is not permitted.
+// "Rotation is performed at the time of a command that involves movement" (guideline 5-2): without these commands, a
+// permitted spindle would start with the next movement, in the material.
 std::string spindle(const Machine& machine) { return machine.spindle_permitted() ? "!MC1;^PR;!ZZ0,0,0;^PA;" : ""; }
 
-// Straight down, above the place. PD and PU also set what the next PA and PR keep.
+// Returns the commands that lower the tool straight down from above the place. PD and PU also set whether later PA and
+// PR commands move with the tool down.
 std::string way_down(const Prefix& prefix) {
   const Machine& machine = prefix.machine();
   const jobs::Point& there = machine.commanded();
@@ -79,8 +81,8 @@ std::string way_down(const Prefix& prefix) {
   return fmt::format("{}!ZZ{},{},{};", lowered ? "^PD;" : "", decimal(there.x), decimal(there.y), decimal(there.z));
 }
 
-// The name of a command comes again in the middle of its list of coordinates. ^ is for the names of mode 2, whichever
-// mode the mill speaks (guideline 3-1 ^).
+// Returns the bytes to send before the next command or set. In the middle of a list of coordinates, the name of its
+// command is repeated. A name of mode 2 is called with ^, which works in both modes of a mill (guideline 3-1 ^).
 std::string before_next(const Prefix& prefix) {
   const auto& [begins, name, first] = *prefix.next();
   const std::string call = name.size() == 2 ? "^" : "";
@@ -91,7 +93,7 @@ std::string words_to(const Prefix& prefix, const Profile& profile) {
   const Machine& machine = prefix.machine();
   const jobs::Point& there = machine.commanded();
   std::string words = "!MC0;^PA;" + raise(profile) + std::string(kTravelAtTheTop);
-  // !ZM, since what is commanded is still that Z2.
+  // !ZM sets the commanded Z to the top, because PU has set it to the Z2 of kTravelAtTheTop.
   words += fmt::format("^PU{},{};!ZM{};", decimal(there.x), decimal(there.y), decimal(profile.top));
   words += modes(prefix) + spindle(machine) + way_down(prefix);
   if (prefix.modes().dwell_ms) words += fmt::format("!DW{};", decimal(*prefix.modes().dwell_ms));

@@ -31,7 +31,7 @@ Result<void> check_length(const jobs::JogStep& step) {
               fmt::format("where the tool is, is not known: use steps of at most {:g} mm down", kDeepestStepMm));
 }
 
-// !ZZ starts a permitted spindle (guideline 5-2).
+// !MC0 comes first, because !ZZ would start a permitted spindle (guideline 5-2).
 Result<HandWords> step_words(const jobs::JogStep& step, const Profile& profile, double slack) {
   if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
   const Result<double> speed = step_speed(step, profile);
@@ -47,7 +47,8 @@ Result<HandWords> step_words(const jobs::JogStep& step, const Profile& profile, 
                    longest_way(way, *speed, profile, slack)};
 }
 
-// After PR a parameter of 0 is the present height, after PA a machine coordinate (guideline 3-3 !ZO).
+// After PR, the parameter 0 of !ZO is the present height. After PA, the parameter is a machine coordinate (guideline
+// 3-3 !ZO).
 Result<HandWords> surface_words(const jobs::SetSurface& surface, const Profile& profile) {
   if (!surface.at) return HandWords{";^PR;!ZO0;^PA;"};
   const double travel = std::round(profile.steps(profile.z_mm));
@@ -59,7 +60,8 @@ Result<HandWords> surface_words(const jobs::SetSurface& surface, const Profile& 
                           std::max(profile.top, bottom)));
 }
 
-// "Rotation is performed at the time of a command that involves movement", where it is not prohibited (guideline 5-2).
+// "Rotation is performed at the time of a command that involves movement", if it is not prohibited (guideline 5-2): so
+// !ZZ0,0,0 follows !MC1.
 Result<HandWords> spindle_words(const jobs::TurnSpindle& spindle, const Profile& profile, double slack) {
   if (!spindle.on) return HandWords{";!MC0;"};
   const std::chrono::duration<double> spin_up(slack * profile.spindle.spin_up_s);

@@ -1,5 +1,5 @@
-// Acts by hand, as bytes: what a person does with a mill besides jobs. The mill never says where its tool is, so steps
-// are relative and short, and nothing checks where they lead.
+// Commands for acts by hand. A mill never reports the position of its tool, so steps are relative and short, and their
+// targets are not checked.
 #pragma once
 
 #include <string>
@@ -13,14 +13,16 @@ namespace axisgate::rml1 {
 
 struct HandWords {
   std::string bytes;
-  Duration longest{};  // that it takes on the slowest mill of the profile
+  Duration longest{};  // longest time to execute the bytes, with the slack of words_of()
 };
 
-// `slack`: by how much a mill may be slower than the slowest of its profile (sending/README.md, "Streaming").
-// out_of_range, where the step is too long or too short, or the height is outside of the travel; too_fast.
+// Returns the commands for an act. `slack`: factor by which a mill may be slower than the slowest mill of its profile
+// (sending/README.md, "Streaming"). Fails with out_of_range if a step is too long or too short, or if a height is
+// outside of Z's travel. Fails with too_fast if the profile does not allow the speed of a step.
 Result<HandWords> words_of(const jobs::HandAct& act, const Profile& profile, double slack);
 
-// A step that leads into something does little damage, and the person sees it.
+// Longest step along an axis, and longest step down. If such a short step hits an obstacle, the damage is small and the
+// person sees it.
 inline constexpr double kFarthestStepMm = 50, kDeepestStepMm = 5;
 
 }  // namespace axisgate::rml1

@@ -23,14 +23,16 @@ Result<void> HandWork::check_taken() const {
               "look at the mill: its panel may hold it, or it is off");
 }
 
-// A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
+// A mill executes all bytes in order, so a job could be sent at once. But the pace of a job is computed for a mill that
+// executes nothing else when the job starts.
 Result<void> HandWork::check_still(TimePoint now) const {
   if (done_at_ <= now) return {};
   return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
               fmt::format("ask again after {} s", seconds_until(done_at_, now)));
 }
 
-// The tool rises after an abort. What a mill executes before it obeys, nobody knows: the answer to the abort says so.
+// The tool rises after an abort. How much the mill executes before it obeys the abort is unknown; the answer to the
+// abort says so.
 Result<void> HandWork::check_risen(TimePoint now) const {
   if (risen_at_ <= now) return {};
   return fail(Reason::axis_busy, "the tool may still rise after the abort",
@@ -41,7 +43,8 @@ Result<void> HandWork::check_idle(TimePoint now) const {
   return check_taken().and_then([&] { return check_still(now); });
 }
 
-// Steps do not add up while nobody looks. Z0 after a step is set where the step leads.
+// A step must wait for the step before it, so that steps do not add up while nobody looks. Setting Z0 need not wait for
+// a step: the mill sets it at the end of the step.
 Result<void> HandWork::check(const jobs::HandAct& act, TimePoint now) const {
   if (const Result<void> taken = check_taken(); !taken) return taken;
   if (line_.held()) {

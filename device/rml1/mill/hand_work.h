@@ -1,4 +1,4 @@
-// Work by hand: when a person may do something besides jobs, and for how long the mill may still move after it.
+// Acts by hand: when a person may operate the mill, and for how long the mill may still move after that.
 #pragma once
 
 #include "device/core/line_machine.h"
@@ -13,20 +13,21 @@ namespace axisgate::rml1 {
 // Not thread safe.
 class HandWork {
  public:
-  // The referenced objects must outlive this one. `slack`: by how much a mill may be slower than the slowest of its
-  // profile.
+  // The referenced objects must outlive this one. `slack`: factor by which a mill may be slower than the slowest mill
+  // of its profile.
   HandWork(const Profile& profile, double slack, FlowLink& line, const Abort& abort)
       : profile_(profile), slack_(slack), line_(line), abort_(abort) {}
 
-  // Words of an act, as words_of() says and fails.
+  // Returns the commands for an act. Fails as words_of() does.
   Result<HandWords> words(const jobs::HandAct& act) const { return words_of(act, profile_, slack_); }
-  // Fails with axis_busy if the mill takes nothing, or if the step or the abort before may not be done.
+  // Fails with axis_busy if the mill takes no bytes. A step also fails if the mill may still execute an earlier act. A
+  // step, and Z0 at the tool's height, also fail if the tool may still rise after an abort.
   Result<void> check(const jobs::HandAct& act, TimePoint now) const;
-  // Fails with axis_busy if the mill has not taken all it was sent, or may still do what it was sent by hand.
+  // Fails with axis_busy if the mill has not taken all bytes sent before, or may still execute an act by hand.
   Result<void> check_idle(TimePoint now) const;
-  // Writes the words. Returns the time after which the mill has done this, and all acts before, at the latest.
+  // Writes the commands. Returns the longest time until the mill has executed this act and all acts before it.
   Duration write(const HandWords& words, TimePoint now);
-  // Notes that an abort ends what was sent by hand, and that the tool then rises.
+  // Notes that an abort ends all acts by hand, and that the tool then rises.
   void abort_requested(TimePoint now);
 
  private:
@@ -38,8 +39,8 @@ class HandWork {
   const double slack_;
   FlowLink& line_;
   const Abort& abort_;
-  TimePoint done_at_{};   // what was sent by hand, at the latest
-  TimePoint risen_at_{};  // the tool, after an abort that the mill obeys at once
+  TimePoint done_at_{};   // latest end of all acts by hand
+  TimePoint risen_at_{};  // latest time at which the tool is up after an abort, if the mill obeys the abort at once
 };
 
 }  // namespace axisgate::rml1

@@ -13,8 +13,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-// Returns the longest time from the top above anywhere back to the place where a tool was raised: across, down, and
-// until the spindle turns.
+// Returns the longest time until a raised tool is back in the place where it was raised: the travel at the top, the
+// descent, and the spin-up of the spindle.
 Duration longest_return(const Profile& profile, double slack) {
   const Duration across = longest_way(std::hypot(profile.x_mm, profile.y_mm), profile.speed.travel, profile, slack);
   const Duration down = longest_way(profile.z_mm, profile.speed.z_minimum, profile, slack);
@@ -44,7 +44,7 @@ void JobRun::start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, 
   follow_sender(now);
 }
 
-// A job that was raised no longer runs: it is PAUSED in the queue.
+// A job whose tool was raised no longer runs: it is PAUSED in the queue.
 Result<void> JobRun::check_sending(bool raise) const {
   switch (run_ ? run_->sender.state() : jobs::SenderState::ready) {
     case jobs::SenderState::sending:
@@ -104,7 +104,8 @@ void JobRun::abort(std::string_view by, TimePoint now) {
   follow_sender(now);
 }
 
-// Only the first abort counts: bytes that left the model of the mill after it may have been discarded.
+// Job::executed is set by the first abort only: bytes that are computed as executed after this abort may have been
+// discarded by the mill.
 void JobRun::note_executed(TimePoint now) {
   if (job().executed) return;
   const jobs::SendProgress progress = run_->sender.progress(now);
@@ -163,7 +164,8 @@ void JobRun::follow_sender(TimePoint now) {
   if (state == jobs::SenderState::aborted) end_aborted(now);
 }
 
-// A mill takes nothing if its panel holds it, if it is off, or if its buffer is full; the line does not say which.
+// A mill takes no bytes if it is paused at its panel, if it is off, or if its buffer is full. The line does not show
+// which of these is true.
 void JobRun::judge_busy(TimePoint now) {
   const jobs::SendProgress progress = run_->sender.progress(now);
   const std::uint64_t left = progress.written - progress.unsent;
@@ -185,7 +187,7 @@ void JobRun::end_fed_part(TimePoint now) {
   end(jobs::JobEvent::part_fed, "", fmt::format("the next tool is {}", job().parts[job().part + 1].tool), now);
 }
 
-// The rest is confirmed as a job is: the tool is elsewhere, and somebody may have reached into the machine.
+// The rest must be confirmed like a job, because the tool is elsewhere and somebody may have reached into the machine.
 void JobRun::end_raised(TimePoint now) {
   const std::uint64_t written = run_->sender.progress(now).written;
   const jobs::Place from = prepared().place(written);
@@ -198,7 +200,8 @@ void JobRun::end_raised(TimePoint now) {
       fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);
 }
 
-// A job whose abort may have been dropped may run on: it has no end that could be named.
+// If the mill may have dropped the abort, it may still execute the job, so the job is PAUSED_UNKNOWN instead of
+// ABORTED.
 void JobRun::end_aborted(TimePoint now) {
   const bool unsure = run_->sender.abort_may_be_dropped();
   const std::string_view sent =
@@ -209,9 +212,9 @@ void JobRun::end_aborted(TimePoint now) {
 }
 
 void JobRun::end(jobs::JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
-  const std::string requested_by(by);  // it may be of what runs
+  const std::string requested_by(by);  // copied, because `by` may refer to a string in run_
   jobs::Job& ended = job();
-  // The run stays, so that the recovery from the error finds it.
+  // Keeps run_ for the recovery from this internal error.
   if (!next(ended.state, event)) return mill_.violations.illegal("job", name(ended.state), name(event));
   if (event == jobs::JobEvent::lost || event == jobs::JobEvent::abort_unsure) ended.written = written_at_loss();
   run_.reset();
@@ -220,7 +223,8 @@ void JobRun::end(jobs::JobEvent event, std::string_view by, std::string_view why
   queue_.change(ended, event, requested_by, why, now);
 }
 
-// Bytes that have left the host may still be in a converter, which is gone with the line.
+// Returns how many of the `left` bytes that have left the host have certainly reached the mill. The other bytes may be
+// in a converter, and are lost with the line.
 std::uint64_t JobRun::in_mill(std::uint64_t left) const {
   const std::uint64_t converter = guarded(jobs::MillGuard::converter_in_range) ? limits_.converter : 0;
   return left - std::min(converter, left);

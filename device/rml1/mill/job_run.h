@@ -1,4 +1,5 @@
-// The job that runs: from its first byte until its part is executed, paused, aborted or lost.
+// The running job, from the first byte of its part until this part is executed, paused with the tool up, aborted or
+// lost.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +20,12 @@
 
 namespace axisgate::rml1 {
 
-// Not thread safe.
+// A JobRun runs the jobs of one mill, at most one at a time. Not thread safe.
 class JobRun {
  public:
   struct Limits {
-    std::size_t converter = 0;  // bytes between host and mill
-    Duration busy{};            // time without a byte taken after which the mill is busy
+    std::size_t converter = 0;  // bytes that a converter between host and mill can contain
+    Duration busy{};            // a mill that takes no byte for this time is busy
   };
 
   // The referenced objects must outlive this one.
@@ -32,29 +33,31 @@ class JobRun {
          jobs::Rights& rights, jobs::RunEvents& events)
       : profile_(profile), limits_(limits), mill_(mill), queue_(queue), rights_(rights), events_(events) {}
 
-  // 0: no job runs.
+  // Number of the running job; 0 if no job runs.
   jobs::JobNumber number() const { return run_ ? run_->number : 0; }
-  // nullopt if no job runs.
+  // State of the running job; nullopt if no job runs.
   std::optional<jobs::RunningJob> view(TimePoint now);
-  // Pace of the mill by the last job that could show it; nullopt if none has.
+  // Pace of the mill, from the last job that could measure it; nullopt if no job could.
   const std::optional<jobs::MeasuredPace>& measured_pace() const { return measured_pace_; }
 
-  // Starts a confirmed job while none runs: its first byte goes out if the mill takes it.
+  // Starts a confirmed job; no job may be running. Sends the first byte at once if the mill takes it.
   void start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by, TimePoint now);
-  // Fails with wrong_mode if no job is being sent. `raise`: after what was sent, the tool is raised and the spindle
-  // stops, and the job is then PAUSED.
+  // Pauses the running job. If `raise`, the tool is raised and the spindle stops after the bytes sent before, and the
+  // job is then PAUSED. Fails with wrong_mode if no job is being sent, if the job is already paused, or if its last
+  // byte was written.
   Result<void> pause(bool raise, TimePoint now);
   // Fails with wrong_mode if no job is paused with the tool in the cut.
   Result<void> check_resumable() const;
+  // Continues sending. Call it after check_resumable() has passed.
   void resume(TimePoint now);
-  // Writes nothing more of the job.
+  // Stops sending the running job and writes the abort. A job must be running.
   void abort(std::string_view by, TimePoint now);
-  // The job, if one runs, is PAUSED_UNKNOWN. `why`: for people.
+  // Makes the running job, if there is one, PAUSED_UNKNOWN. `why`: reason, for people.
   void line_lost(std::string_view why, TimePoint now);
-  // Ends the job in the same way after an internal error, whatever its state.
+  // Makes the running job, if there is one, PAUSED_UNKNOWN after an internal error, whatever its state is.
   void abandon(std::string_view why, TimePoint now);
 
-  // Called before so many bytes are written, while the host still has `unsent` ones.
+  // Notes that `bytes` bytes will be written next. `unsent`: number of bytes written before that are still in the host.
   void about_to_write(std::size_t bytes, std::size_t unsent);
 
   void advance(TimePoint now);
@@ -62,7 +65,7 @@ class JobRun {
 
   std::string broken_invariant() const;
 
-  // Longest time between two calls of advance(), so that others see the progress.
+  // Longest time between two calls of advance(), so that the displayed progress stays current.
   static constexpr Duration kLook = std::chrono::milliseconds(500);
 
  private:
@@ -72,9 +75,9 @@ class JobRun {
     TimePoint started;
     Sender sender;
     jobs::SenderState seen = jobs::SenderState::ready;
-    std::uint64_t noted = 0;  // bytes of the text that were given to the line
-    std::uint64_t left = 0;   // bytes of it that have left the host, at `left_at`
-    TimePoint left_at{};
+    std::uint64_t noted = 0;  // number of bytes of PreparedJob::text() that were given to the line
+    std::uint64_t left = 0;   // number of bytes of the text that have left the host
+    TimePoint left_at{};      // last time at which `left` changed or no byte waited
     bool busy = false;
     std::string aborted_by{};
   };

@@ -19,7 +19,7 @@ Result<void> check_same_bytes(const jobs::Job& confirmed, const PreparedJob& pre
               "send the job again");
 }
 
-// The earliest of those that are given.
+// Returns the earliest of the times; nullopt if all of them are nullopt.
 std::optional<TimePoint> earliest(std::initializer_list<std::optional<TimePoint>> times) {
   std::optional<TimePoint> found;
   for (const auto& time : times) {
@@ -150,7 +150,7 @@ bool MillController::abort(std::string_view by, TimePoint now) {
   return true;
 }
 
-// A mill may still execute a job that no longer runs here.
+// The abort is written although no job runs, because the mill may still execute a job that has ended in the queue.
 bool MillController::send_abort(TimePoint now) {
   if (link_ != jobs::MachineLink::open) {
     abort_.postpone();
@@ -213,8 +213,8 @@ void MillController::illegal(std::string_view machine, std::string_view state, s
   internal_error_ = fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event);
 }
 
-// The mill is stopped, because its state is unknown, and a person looks at the workpiece. The abort is the first thing
-// sent on the line that is opened again: bytes that wait in the host when a line is closed are lost.
+// Aborts the mill, because its state is unknown; a person must look at the workpiece. Closing the line discards the
+// bytes that wait in the host, so the abort is the first thing sent after the line is open again.
 void MillController::recover(TimePoint now) {
   events_.internal_error(internal_error_, now);
   run_.abandon(internal_error_, now);

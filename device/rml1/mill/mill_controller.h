@@ -1,5 +1,5 @@
-// One mill: wires its queue, confirmations, running job, abort and work by hand to a line. README.md says what each
-// state means.
+// Controller of one mill: connects its queue, confirmations, running job, abort and acts by hand to a line.
+// device/jobs/README.md explains the states of a job.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@
 
 namespace axisgate::rml1 {
 
-// Not thread safe: lives on its device's strand.
+// Not thread safe: used only on its device's strand.
 class MillController : public jobs::Machine, private Violations {
  public:
   // The referenced objects must outlive this one.
@@ -47,7 +47,7 @@ class MillController : public jobs::Machine, private Violations {
   void add(jobs::Job job, TimePoint now) override { queue_.add(std::move(job), now); }
   Result<void> confirm(jobs::JobNumber job, const jobs::JobSetup& seen, std::string by, TimePoint now) override;
   Result<void> check_startable(jobs::JobNumber job, TimePoint now) override;
-  // `prepared` is a PreparedJob of this folder.
+  // `prepared` must be an rml1::PreparedJob.
   Result<void> start(jobs::JobNumber job, std::shared_ptr<const jobs::PreparedJob> prepared,
                      const use::RequestContext& by, TimePoint now) override;
   Result<void> pause(bool raise, TimePoint now) override { return run_.pause(raise, now); }
@@ -73,10 +73,10 @@ class MillController : public jobs::Machine, private Violations {
   jobs::MachineLink link() const override { return link_; }
   const std::optional<jobs::MeasuredPace>& measured_pace() const override { return run_.measured_pace(); }
   std::uint64_t surfaces() const override { return left_.surfaces(); }
-  // Voids the confirmation. `why`: for people.
+  // Voids the confirmation, if there is one. `why`: reason, for people.
   void setup_changed(std::string_view why, TimePoint now) { confirmations_.make_void(why, now); }
-  // Takes the events that a state machine of the mill does not have in its table: the mill is aborted, its line opened
-  // again, and the job that runs is PAUSED_UNKNOWN.
+  // Receives reports of events that the table of a state machine does not allow. After such an event, the mill is
+  // aborted, its line is reopened, and the running job is PAUSED_UNKNOWN.
   Violations& violations() { return *this; }
   // Text of the first invariant that does not hold; empty if all do.
   std::string broken_invariant() const;
@@ -87,11 +87,11 @@ class MillController : public jobs::Machine, private Violations {
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
 
-  // Time between two attempts to open the line: the first, doubled each time up to the last.
+  // Time before the line is opened again: kReopenFirst, doubled after each failure, at most kReopenLast.
   static constexpr Duration kReopenFirst = std::chrono::milliseconds(250), kReopenLast = std::chrono::seconds(5);
 
  private:
-  // Passes on what is written, after it was noted.
+  // A NotedLine reports bytes to the running job before it writes them, and to the events after it has written them.
   class NotedLine : public FlowLink {
    public:
     NotedLine(MillController& mill, FlowLink& line) : mill_(mill), line_(line) {}
@@ -126,8 +126,8 @@ class MillController : public jobs::Machine, private Violations {
   JobRun run_;
   jobs::MachineLink link_ = jobs::MachineLink::closed;
   Duration reopen_ = kReopenFirst;
-  std::string internal_error_;  // that advance() has not recovered from yet; empty: none
-  TimePoint now_{};             // of the last call of a LineMachine's functions
+  std::string internal_error_;  // text of an error from which advance() has not recovered yet; empty: none
+  TimePoint now_{};             // time of the last call of link_up(), link_down() or advance()
 };
 
 }  // namespace axisgate::rml1

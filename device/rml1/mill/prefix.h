@@ -1,4 +1,4 @@
-// Plays the part of a job before the place where it continues, so that the state there is known.
+// State of a job at the place where it continues, found by simulating the commands before this place.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,31 @@ namespace axisgate::rml1 {
 
 class Prefix : private ParserListener, private MachineListener {
  public:
-  // First command, or set of its coordinates, at the byte `from` of the job or after it.
+  // The first command or set of coordinates that begins at the byte `from` of the job or later.
   struct Next {
     jobs::Place begins;
-    std::string_view name;  // of the command
-    bool first = true;      // of the command's sets: it begins with its name
+    std::string_view name;  // name of the command
+    bool first = true;      // the command begins here, with its name; false: in the middle of its list of coordinates
   };
-  // Coordinate by which the tool's height was commanded. Without an origin it cannot be converted into another.
+  // Coordinate system in which the tool's height was commanded. Without an origin, the height cannot be converted to
+  // another coordinate system.
   enum class Height { workpiece, machine, top, unknown };
-  // Modes set since the last DF or IN; !RC, which these keep, in the whole job.
+  // Modes that were set since the last DF or IN. `revolutions` (!RC) counts from the beginning of the job, because DF
+  // and IN do not reset it.
   struct Modes {
     std::optional<double> plane_speed{}, height_speed{}, dwell_ms{}, z1{}, z2{}, revolutions{};
   };
 
-  // Reads the whole job. `profile` outlives this.
+  // Reads the whole job. `profile` must outlive this object.
   Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<jobs::Origin> origin);
 
   const std::optional<Next>& next() const { return next_; }
-  bool has_effect() const { return has_effect_; }  // there is a command in it
+  bool has_effect() const { return has_effect_; }  // a command begins before `from`
   const Machine& machine() const { return machine_; }
   const Modes& modes() const { return modes_; }
   const jobs::Leaves& leaves() const { return judge_.leaves(); }
   Height height() const { return height_; }
-  double machine_height() const { return machine_height_; }  // of Height::machine
+  double machine_height() const { return machine_height_; }  // machine coordinate, valid for Height::machine
 
  private:
   void execute(const Instruction& instruction) override;

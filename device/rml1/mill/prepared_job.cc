@@ -16,7 +16,7 @@ class NoInstructions : public ParserListener {
   void quit() override {}
 };
 
-// Our terminator would complete what the file leaves open.
+// Returns `body` without an incomplete group at its end, because the terminator of the epilogue would complete it.
 std::string_view without_open_end(std::string_view body, const Dialect& dialect) {
   Diagnostics diagnostics;
   NoInstructions nothing;
@@ -67,21 +67,21 @@ jobs::Place PreparedJob::place(std::uint64_t bytes) const {
           in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
 }
 
-// The last of the bytes that a command needs may be the first of the next one (guideline 2-3).
+// The last byte that completes a command may be the first byte of the next command (guideline 2-3).
 jobs::PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) const {
   std::uint64_t begin = std::max(least, rest_in_text_ + 1) - 1;
   while (begin < text_.size() && (is_delimiter(text_[begin]) || text_[begin] == ',')) ++begin;
   return {place(begin), place(std::max(begin, written))};
 }
 
-// A mill that shows how fast it is shows more than its profile knows. What comes may be moves of another kind, which no
-// mill makes faster than at full speed.
+// A measured pace is more exact than the profile. But the rest may consist of other kinds of moves, which no mill makes
+// faster than at full speed.
 jobs::TimeRange left_of(const PreparedJob& job, const jobs::SendProgress& progress,
                         const std::optional<jobs::MeasuredPace>& measured) {
   if (!measured) {
     const jobs::TimeRange left = job.times().left(progress.executed_least, progress.executed_most);
     return {left.least,
-            std::max(left.least, left.most)};  // after a raise the slowest mill has executed what it was sent
+            std::max(left.least, left.most)};  // after a raise, the slowest mill has executed all sent bytes
   }
   const auto takes = [&job](std::uint64_t executed, double pace) {
     return std::chrono::duration_cast<Duration>(

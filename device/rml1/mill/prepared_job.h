@@ -1,4 +1,4 @@
-// A job, or a part of one, as it is sent. Made once, off the device's strand, since it reads the whole job.
+// A job, or a part of a job, prepared for sending.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,12 @@
 
 namespace axisgate::rml1 {
 
-// Immutable, so threads may share it.
+// Immutable, so threads may share it. The constructor reads the whole job, so do not call it on the device's strand.
 class PreparedJob final : public jobs::PreparedJob {
  public:
-  // `body`: the job's bytes, checked, or those of one part of it, which begins at the job's byte `begin`. `digest`: of
-  // all bytes of the job, in hex. `origin`: as of the check. `from`: the place in the part at which it is continued,
-  // and the approach to it.
+  // `body`: checked bytes of the job, or of one part, which begins at the byte `begin` of the job. `digest`: digest of
+  // all bytes of the job, in hex. `origin`: the origin of the check. `from` and `approach`: place in the part at which
+  // it continues, and the approach to this place; nullopt and empty if the part is sent from its beginning.
   PreparedJob(std::string_view body, std::string digest, const Profile& profile, std::optional<jobs::Origin> origin,
               const jobs::SendSettings& settings, std::uint64_t begin = 0, std::optional<jobs::Place> from = {},
               const Approach& approach = {});
@@ -37,22 +37,23 @@ class PreparedJob final : public jobs::PreparedJob {
   jobs::RunOn run_on() const override { return plan_.run_on; }
 
   const std::string& digest() const { return digest_; }
-  // Bytes of the job with prologue and epilogue.
+  // Bytes to send: prologue, approach, the part from the place on, epilogue.
   const std::string& text() const { return text_; }
   const Timeline& timeline() const { return timeline_; }
   const jobs::SendSettings& settings() const { return settings_; }
   const SendPlan& plan() const { return plan_; }
-  // These count bytes of text().
+  // Times of text(). Byte counts are bytes of text().
   const JobTimes& times() const { return times_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<jobs::Place>& from() const { return from_; }
-  // Returns up to which byte of the job itself, or which place in the part, so many bytes of text() reach. A group that
-  // the part leaves open is not sent, and counts as sent with what is before it.
+  // Returns the offset in the whole job that the first `bytes` bytes of text() reach. An incomplete group at the end of
+  // the part is never sent; it counts as sent together with the bytes before it.
   std::uint64_t of_body(std::uint64_t bytes) const;
+  // Returns the place in the part that the first `bytes` bytes of text() reach.
   jobs::Place place(std::uint64_t bytes) const;
-  // Returns the range in which the mill stops executing the part, if it has executed at least `least` bytes of text()
-  // and gets no more than those written. Commands that begin before the first place are executed; those that begin at
-  // the second place or after it are not.
+  // Returns the range of places at which the mill stops executing the part, if it executes at least `least` bytes of
+  // text() and receives at most `written` bytes. Commands that begin before the first place of the range are executed;
+  // commands that begin at its second place or later are not.
   jobs::PlaceRange executed(std::uint64_t least, std::uint64_t written) const;
 
  private:
@@ -61,19 +62,19 @@ class PreparedJob final : public jobs::PreparedJob {
   const std::string digest_;
   const std::uint64_t begin_;
   const std::optional<jobs::Place> from_;
-  // Bytes that are sent of the part itself: where they begin in it and in text(), and how many they are.
+  // Bytes of the part that are sent: their beginning in the part (rest_) and in text(), and their number.
   const jobs::Place rest_;
   const std::uint64_t body_size_, rest_in_text_, rest_size_;
   const std::string text_;
-  const PlaceIndex places_;  // of what is sent of the part itself: an abort waits for it
+  const PlaceIndex places_;  // of the bytes of the part that are sent; an index, because an abort waits for place()
   const Timeline timeline_;
   const jobs::SendSettings settings_;
   const SendPlan plan_;
   const JobTimes times_;
 };
 
-// Returns how long the rest of a running job takes. `progress` is in bytes of its text(); `measured` is the pace that
-// this job itself has shown.
+// Returns the remaining time of the running part. `progress`: in bytes of text(). `measured`: the pace measured during
+// this part; nullopt if it was not measured.
 jobs::TimeRange left_of(const PreparedJob& job, const jobs::SendProgress& progress,
                         const std::optional<jobs::MeasuredPace>& measured);
 

@@ -1,4 +1,4 @@
-// The check of a job that is queued: errors, warnings by kind, and the longest bytes that are sent at once.
+// Check of a job before it is queued: errors, warnings by kind, and the longest piece that must be sent at once.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ class QueuedCheck final : public jobs::Check {
   // The profile must outlive this object.
   QueuedCheck(const Profile& profile, CheckOptions options) : check_(profile, std::move(options)) {}
 
-  // `before` is a QueuedCheck, too.
+  // `before` must be a QueuedCheck.
   void continues(jobs::Check& before) override { check_.continues(static_cast<QueuedCheck&>(before).check_); }
   void feed(std::string_view bytes) override;
   void finish() override { check_.finish(); }

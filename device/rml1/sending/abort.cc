@@ -65,7 +65,7 @@ void Abort::advance(TimePoint now) {
     arrives_ = now + transmit_time(settings_.converter, settings_.baud);
     return;
   }
-  // XOFF shows only as bytes that do not leave.
+  // The host cannot see an XOFF; it sees only that bytes do not leave.
   if (guarded(jobs::MillGuard::abort_is_not_held) && now - written_ >= kHeldBeforeIgnored)
     line_.ignore_flow_control(true);
 }

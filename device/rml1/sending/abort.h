@@ -1,4 +1,4 @@
-// The abort of a mill: from the request until it has reached the mill, whether a job is sent or none.
+// The abort of a mill, from its request until it has reached the mill, with or without a running job.
 #pragma once
 
 #include <cstddef>
@@ -13,52 +13,54 @@
 
 namespace axisgate::rml1 {
 
-// README.md has the table of what leads from one to another.
+// Phases of an abort. README.md has the table of phases and events.
 enum class AbortPhase {
-  none,    // no abort was requested, or the mill has it
-  waits,   // for the line
-  leaves,  // this host
-  travels  // to the mill: a converter may still hold it; last: kAbortPhases
+  none,    // no abort was requested, or the mill has received it
+  waits,   // the line is closed, and the abort is sent when the line is open again
+  leaves,  // bytes of the abort are still in this host
+  travels  // a converter may still contain the abort; must be the last value: kAbortPhases
 };
 inline constexpr std::size_t kAbortPhases = static_cast<std::size_t>(AbortPhase::travels) + 1;
 
 enum class AbortEvent {
-  postponed,  // the line is closed
-  written,    // to the line
-  left,       // this host
-  arrived,    // at the mill, at the latest
-  line_lost   // last: kAbortEvents
+  postponed,  // the abort must wait until the line is open
+  written,    // the abort was written to the line
+  left,       // all bytes of the abort have left this host
+  arrived,    // the abort has had enough time to pass a converter
+  line_lost   // must be the last value: kAbortEvents
 };
 inline constexpr std::size_t kAbortEvents = static_cast<std::size_t>(AbortEvent::line_lost) + 1;
 
 std::string_view name(AbortPhase phase);  // "none", as in README.md
 std::string_view name(AbortEvent event);
 
-// Returns the phase after the event; nullopt if the table has none.
+// Returns the phase after the event; nullopt if the table does not allow the event.
 std::optional<AbortPhase> next(AbortPhase phase, AbortEvent event);
 
-// Not thread safe. `now` never goes back.
+// An Abort writes the abort of one mill and follows it until it has arrived. Not thread safe. `now` must never
+// decrease.
 class Abort {
  public:
   // The referenced objects must outlive this one.
   Abort(const Profile& profile, const jobs::SendSettings& settings, FlowLink& line, Violations& violations)
       : profile_(profile), settings_(settings), line_(line), violations_(violations) {}
 
-  // Writes the abort to the line, which is open. `rests`: the spindle may be stationary when it reaches the mill.
+  // Writes the abort to the line, which must be open. `rests`: true if the spindle may be stationary when the abort
+  // reaches the mill.
   void write(bool rests, TimePoint now);
-  // Keeps the abort until the line is back and write() is called.
+  // Notes that an abort must be written, by a later call of write(), when the line is open again.
   void postpone() { change(AbortEvent::postponed); }
-  // Keeps an abort that may not have reached the mill.
+  // Notes that the line was lost. An abort that may not have reached the mill must then be written again.
   void line_lost(TimePoint now);
-  // Follows an abort out of the host. Ignores flow control that forbids it for longer than kHeldBeforeIgnored.
+  // Updates the phase. Ignores flow control if bytes of the abort are still in the host after kHeldBeforeIgnored.
   void advance(TimePoint now);
 
   AbortPhase phase() const { return phase_; }
-  // Reports whether it is to be sent, or has not left this host.
+  // Reports whether the abort waits for the line, or has not left this host completely.
   bool waits() const { return phase_ == AbortPhase::waits || phase_ == AbortPhase::leaves; }
 
   static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
-  // Longest time between two calls of advance() while it leaves the host.
+  // Longest time between two calls of advance() in phase `leaves`.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
 
  private:
@@ -70,8 +72,8 @@ class Abort {
   FlowLink& line_;
   Violations& violations_;
   AbortPhase phase_ = AbortPhase::none;
-  TimePoint written_{};  // when it leaves
-  TimePoint arrives_{};  // at the latest, when it travels
+  TimePoint written_{};  // time of write(), for phase `leaves`
+  TimePoint arrives_{};  // latest time of arrival at the mill, for phase `travels`
 };
 
 }  // namespace axisgate::rml1

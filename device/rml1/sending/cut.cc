@@ -11,11 +11,12 @@ void Cutter::next() {
   end_ = find_end();
 }
 
-// A list is read no further than the window, if it can be cut there. `places_` has come to the end that is found.
+// Returns the end of the write that begins at begin_, and lets `places_` take the bytes up to that end. A list that can
+// be cut within the window is not read beyond the window.
 std::size_t Cutter::find_end() {
   const std::size_t full = begin_ + window_;
   CutPlaces places = places_;
-  std::size_t at = begin_, cut = 0;  // of the list that is cut there
+  std::size_t at = begin_, cut = 0;  // `cut`: last place found at which the list can be cut; 0: none
   bool ended = false;
   while (at < job_.size() && !ended && (cut == 0 || at < full)) {
     const CutPlaces::Cut found = places.take(job_[at++]);

@@ -1,4 +1,4 @@
-// A job in writes.
+// Division of a job into writes.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,15 @@
 
 namespace axisgate::rml1 {
 
-// Goes through a job, write after write. The job outlives it. In all it reads each byte a few times, however long a
-// command is.
+// A Cutter divides a job into writes, in their order. The job must outlive the Cutter. Each byte of the job is read
+// only a few times, even if a command is long.
 class Cutter {
  public:
   Cutter(std::string_view job, std::size_t window);
 
-  // The next write: a command, and the delimiters after it that are within `window`. A command that is longer is cut
-  // after the comma of a complete set of coordinates, if it has one. At the end of the job both are its size.
+  // Range of the next write, in bytes of the job: one command, with the delimiters after it that fit into `window`. A
+  // command longer than `window` is cut after the comma that follows a complete set of coordinates, if there is such a
+  // comma. At the end of the job, begin() and end() are the size of the job.
   std::size_t begin() const { return begin_; }
   std::size_t end() const { return end_; }
   void next();
@@ -25,7 +26,7 @@ class Cutter {
 
   const std::string_view job_;
   const std::size_t window_;
-  CutPlaces places_;  // has taken what is before the next write
+  CutPlaces places_;  // has taken the bytes of the job before end_
   std::size_t begin_ = 0, end_ = 0;
 };
 

@@ -12,14 +12,14 @@ namespace {
 
 bool ends_command(char c) { return is_delimiter(c) && !is_blank(c); }
 
-// Returns how many numbers make a set of the command with that name, in capitals; 0 if it takes no list (guideline
-// 5-1).
+// Returns how many numbers make a set of the command whose name, in capitals, `name` ends with; 0 if that command takes
+// no list (guideline 5-1).
 std::size_t set_of(std::string_view name) {
   struct Row {
     std::string_view name;
     std::size_t numbers;
   };
-  // The longer names first.
+  // Longer names come first.
   constexpr std::array kRows{Row{"!ZZ", 3}, Row{"PA", 2}, Row{"PR", 2}, Row{"PU", 2}, Row{"PD", 2},
                              Row{"D", 2},   Row{"M", 2},  Row{"I", 2},  Row{"R", 2},  Row{"Z", 3}};
   const auto row = std::ranges::find_if(kRows, [&](const Row& one) { return name.ends_with(one.name); });
@@ -50,7 +50,7 @@ void SetReader::take_name(char c) {
   in_number_ = false;
 }
 
-// Numbers that nothing divides are not counted: that list is not cut.
+// Numbers without a separator between them cannot be counted reliably, so a list with such numbers is not cut.
 void SetReader::take_number(char c) {
   if (!std::exchange(in_number_, true)) {
     ++count_;

@@ -1,5 +1,5 @@
-// Places at which a job may be cut. A number that is cut in two would be executed as another number if an abort came
-// between.
+// Places at which a job may be cut. Numbers are never cut: if an abort came between the two parts of a number, the mill
+// would execute a different number.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace axisgate::rml1 {
 
-// A SetReader finds the ends of the sets in a list of coordinates. A command may follow another without a delimiter,
-// and a blank may divide numbers (guideline 2-2, 2-3).
+// A SetReader finds the ends of the sets in a list of coordinates. Two commands may follow each other without a
+// delimiter, and a blank may separate two numbers (guideline 2-2, 2-3).
 class SetReader {
  public:
-  // Reports whether this comma follows a complete set. The terminator ends the command through end().
+  // Takes the next byte. Reports whether it is a comma that follows a complete set. Call end() after each terminator.
   bool take(char c);
   void end() { numbers_ = 0; }
 
@@ -21,26 +21,26 @@ class SetReader {
 
   static constexpr std::size_t kLongestName = 3;
   std::string name_;
-  std::size_t numbers_ = 0;  // of a set of the list; 0: it is none
-  std::size_t count_ = 0;
+  std::size_t numbers_ = 0;  // how many numbers make a set; 0: the command has no list that can be cut
+  std::size_t count_ = 0;    // how many numbers of the command were read
   bool in_number_ = false, has_point_ = false;
 };
 
-// Takes a job from its first byte on.
+// CutPlaces finds the places at which a job may be cut. It must take all bytes of the job, from the first one.
 class CutPlaces {
  public:
   enum class Cut {
     no,
     in_list,          // after the comma of a complete set of coordinates
-    between_commands  // after a terminator, or another delimiter after it
+    between_commands  // after a terminator, or after a delimiter that follows the terminator
   };
-  // Returns the kind of a cut after this byte.
+  // Takes the next byte of the job. Returns the kind of cut that is possible after it.
   Cut take(char c);
 
  private:
   SetReader sets_;
-  bool ended_ = true;   // no command is open
-  bool calls_ = false;  // a circumflex waits for the next command, across delimiters (guideline 1-2)
+  bool ended_ = true;   // the last command is complete
+  bool calls_ = false;  // a circumflex applies to the next command, even if delimiters follow it (guideline 1-2)
 };
 
 }  // namespace axisgate::rml1

@@ -1,4 +1,4 @@
-// Models a job on its way to a mill of one speed: when its commands arrive, and when they have been executed.
+// Simulated sending of a job to a mill of a given speed: when commands arrive, and when they have been executed.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@
 
 namespace axisgate::rml1 {
 
-// Returns the time of so many bytes on the line, each with start bit and stop bit.
+// Returns the time that the line needs for `bytes` bytes, each with a start bit and a stop bit.
 Duration transmit_time(std::size_t bytes, int baud);
 
 class Delivery {
  public:
-  // Each step takes the mill its `duration`, times `slower`. `window`: number of bytes that may be ahead of what it has
-  // executed; nullopt if the line alone limits them.
+  // The mill needs `slower` times the `duration` of each step. `window`: how many bytes may be sent beyond those that
+  // the mill has executed; nullopt if only the line limits them. `timeline` must outlive this object.
   Delivery(const Timeline& timeline, float Step::*duration, double slower, int baud, std::optional<std::size_t> window)
       : pace_(timeline, duration, slower), baud_(baud), window_(window) {}
 
-  // Sends the next command, which leaves once the command before has left and the window has room. Returns when it
-  // arrives, counted from the start.
+  // Sends the bytes from `begin` to `end` of the job, once the bytes before them have left and the window has room.
+  // Returns the time of their arrival, counted from the start of sending.
   TimePoint send(std::size_t begin, std::size_t end);
-  // Returns when all that was sent has been executed.
+  // Returns the time at which all sent bytes have been executed.
   TimePoint executed() const { return pace_.when(sent_); }
 
  private:

@@ -18,7 +18,7 @@ Duration from_seconds(float seconds) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<float>(std::max(seconds, 0.0F)));
 }
 
-// A sender looks at its line now and then, so that commands are a little later than they might be.
+// Factor for arrival times: a sender checks its line only at intervals, so commands are sent a little late.
 constexpr double kLater = 1.01;
 
 void arrive(Pace& pace, std::uint64_t through, TimePoint at) {
@@ -26,7 +26,7 @@ void arrive(Pace& pace, std::uint64_t through, TimePoint at) {
   pace.arrived(through, at);
 }
 
-// Returns where the bytes end that move something.
+// Returns the number of bytes of the job up to the end of its last step.
 std::uint64_t end_of(const Timeline& timeline) { return timeline.steps().empty() ? 0 : timeline.steps().back().end; }
 
 }  // namespace
@@ -40,7 +40,7 @@ JobTimes::JobTimes(std::string_view job, const Timeline& timeline, const jobs::S
   }
 }
 
-// Every mill is sent its bytes as the slowest has room for them, and waits for them.
+// Bytes are sent at the pace of the slowest mill, so a faster mill waits for them.
 void JobTimes::add_paced(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
                          std::size_t window) {
   Delivery slowest(timeline, &Step::slowest_s, settings.slack, settings.baud, window);
@@ -53,7 +53,8 @@ void JobTimes::add_paced(std::string_view job, const Timeline& timeline, const j
   }
 }
 
-// A mill that stops its line has room for more only when a part of its buffer is empty.
+// A mill that has stopped its line accepts more bytes only after a part of its buffer is empty, so the high end is
+// computed with half of the buffer.
 void JobTimes::add_full(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings,
                         std::size_t window) {
   Delivery fast(timeline, &Step::least_s, 1, settings.baud, std::nullopt);

@@ -1,5 +1,4 @@
-// Computes how long a job takes as it is sent, and how long its rest takes. A mill never says how fast it is, so both
-// are ranges.
+// Duration of a job as it is sent, and its remaining time. Both are ranges, because a mill never reports its speed.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +13,19 @@
 
 namespace axisgate::rml1 {
 
-// Immutable. The time begins with the first byte, and ends with the last movement.
+// Immutable. Times count from the first byte of the job to the end of its last movement.
 class JobTimes {
  public:
   // `window`: SendPlan::window.
   JobTimes(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings, std::size_t window);
 
   jobs::TimeRange whole() const { return left(0, 0); }
-  // Returns the time that is left when so many bytes of the job have been executed, at least and at most.
+  // Returns the remaining time when at least `executed_least` and at most `executed_most` bytes of the job have been
+  // executed.
   jobs::TimeRange left(std::uint64_t executed_least, std::uint64_t executed_most) const;
 
  private:
-  // A command, and when it has been executed: seconds.
+  // A Moment is the time, in seconds, at which the commands up to the byte `end` have been executed.
   struct Moment {
     std::uint64_t end = 0;
     float least = 0, most = 0;

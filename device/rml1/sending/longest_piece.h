@@ -1,4 +1,4 @@
-// Finds the longest piece of a job that must be one write, however small the window is.
+// Longest piece of a job that cannot be cut, so it must be sent in one write even if the window is smaller.
 #pragma once
 
 #include <string_view>
@@ -9,11 +9,11 @@
 
 namespace axisgate::rml1 {
 
-// Takes a job from its first byte on.
+// A LongestPiece must take all bytes of the job, from the first one.
 class LongestPiece {
  public:
   void take(std::string_view bytes);
-  // Returns the longest piece of the bytes taken that cannot be cut; the first of several.
+  // Returns the longest piece that cannot be cut among the bytes taken; the first one if several have this length.
   const jobs::Piece& longest() const { return longest_; }
 
  private:

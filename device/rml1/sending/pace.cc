@@ -12,11 +12,11 @@ void Pace::arrived(std::uint64_t through, TimePoint at) {
     const std::chrono::duration<double> takes(steps[next_].*duration_ * slower_);
     add(steps[next_].end, at, std::chrono::duration_cast<Duration>(takes));
   }
-  // A step that moves nothing ends with the step before it.
+  // Bytes that cause no step have been executed when the step before them has ended.
   add(through, at, {});
 }
 
-// A command with several steps has been executed when the last has ended.
+// A command with several steps has been executed when its last step has ended.
 void Pace::add(std::uint64_t end, TimePoint arrived, Duration takes) {
   free_ = std::max(free_, arrived) + takes;
   if (unexecuted_.empty() || unexecuted_.back().end != end) unexecuted_.push_back({end, arrived, {}, {}});

@@ -1,4 +1,4 @@
-// Computes when a mill of one speed has executed the bytes that it was sent.
+// Times at which a mill of a given speed has executed the bytes that were sent to it.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,33 @@ namespace axisgate::rml1 {
 
 class Pace {
  public:
-  // Each step takes its `duration`, times `slower`. `timeline` outlives this.
+  // The mill needs `slower` times the `duration` of each step. `timeline` must outlive this object.
   Pace(const Timeline& timeline, float Step::*duration, double slower)
       : timeline_(timeline), duration_(duration), slower_(slower) {}
 
-  // Notes that the job's bytes up to `through` arrive at that time. Both ascend.
+  // Notes that the first `through` bytes of the job have arrived at the time `at`. Neither argument may decrease from
+  // call to call.
   void arrived(std::uint64_t through, TimePoint at);
-  // Notes that the bytes after the first `arrived_bytes` ones have not arrived by `now`: each of them takes at least
-  // `a_byte` from then on. `now` ascends.
+  // Notes that only the first `arrived_bytes` bytes have arrived by `now`. The later bytes arrive one after another
+  // from `now` on, at intervals of at least `a_byte`. `now` must never decrease.
   void not_arrived(std::uint64_t arrived_bytes, Duration a_byte, TimePoint now);
-  // Notes that so many bytes have left the mill's buffer by now, whatever its speed is: their last command may be in
-  // progress, and those before it have been executed. `now` ascends.
+  // Notes that the first `bytes` bytes have left the mill's buffer by `now`, whatever the mill's speed is: the last
+  // command in them may be in progress, and all commands before it have been executed. `now` must never decrease.
   void has_read(std::uint64_t bytes, TimePoint now);
 
-  // Returns the number of bytes of the job that it has executed. `now` ascends.
+  // Returns the number of bytes of the job that the mill has executed by `now`. `now` must never decrease.
   std::uint64_t executed(TimePoint now);
-  // Returns when it will have executed so many of the bytes that have arrived.
+  // Returns the time at which the mill has executed the first `bytes` bytes, which must have arrived. Returns
+  // TimePoint{} if it has executed them already.
   TimePoint when(std::uint64_t bytes) const;
 
  private:
+  // An Ending is the end of a command that has not been executed.
   struct Ending {
-    std::uint64_t end = 0;  // bytes
+    std::uint64_t end = 0;  // in bytes of the job
     TimePoint arrived{};
     Duration takes{};
-    TimePoint at{};
+    TimePoint at{};  // when the command has been executed
   };
 
   void add(std::uint64_t end, TimePoint arrived, Duration takes);
@@ -42,10 +45,10 @@ class Pace {
   const Timeline& timeline_;
   float Step::*const duration_;
   const double slower_;
-  std::size_t next_ = 0;  // step
-  TimePoint free_{};      // when the last step that has arrived ends
+  std::size_t next_ = 0;  // index of the next step to arrive
+  TimePoint free_{};      // end of the last step that has arrived
   std::uint64_t executed_ = 0;
-  std::deque<Ending> unexecuted_;  // in their order
+  std::deque<Ending> unexecuted_;  // in the order of the job
 };
 
 }  // namespace axisgate::rml1

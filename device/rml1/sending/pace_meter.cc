@@ -7,7 +7,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kWithin = 1.2;  // the high end of a range that says something, in low ends
+constexpr double kWithin = 1.2;  // greatest ratio of high end to low end in a range that is reported
 
 double width(const jobs::MeasuredPace& pace) { return pace.most / pace.least; }
 
@@ -20,7 +20,7 @@ jobs::SendSettings with_pace(jobs::SendSettings settings, const std::optional<jo
   return settings;
 }
 
-// The first step is not counted: it begins where the tool happens to be, so nobody knows how long it should take.
+// The first step does not count: the tool's starting point is unknown, so the expected time of the step is unknown too.
 void PaceMeter::stopped(std::uint64_t left, TimePoint now) {
   const auto& steps = timeline_.steps();
   if (steps.empty() || begun(left) <= steps.front().end) return;
@@ -40,8 +40,8 @@ std::optional<jobs::MeasuredPace> PaceMeter::pace() const {
   return before_ && width(*before_) <= width(*now) ? before_ : now;
 }
 
-// The steps that were certainly executed between the two took no longer than that time, and all that may have been took
-// no less.
+// Compares the time between the first and the last stop with the durations of the steps executed in it. The steps that
+// were certainly executed took no more than this time; all steps that may have been executed took no less.
 std::optional<jobs::MeasuredPace> PaceMeter::between_stops() const {
   if (!first_) return std::nullopt;
   const double seconds = std::chrono::duration<double>(last_->at - first_->at).count();
@@ -51,14 +51,14 @@ std::optional<jobs::MeasuredPace> PaceMeter::between_stops() const {
   return jobs::MeasuredPace{seconds / possible, seconds / certain};
 }
 
-// The end of the last command that the mill has certainly begun. Those before it are executed.
+// Returns the end of the last command that the mill has certainly begun. All commands before it have been executed.
 std::uint64_t PaceMeter::begun(std::uint64_t left) const {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, left - std::min<std::uint64_t>(unread_, left), {}, &Step::end);
   return next == steps.begin() ? 0 : std::prev(next)->end;
 }
 
-// Returns the time of the steps that end there, `to` excluded.
+// Returns the sum of `slowest`, in seconds, over the steps that end at the byte `from` or later, but before `to`.
 double PaceMeter::slowest_s(std::uint64_t from, std::uint64_t to) const {
   return std::max(0.0, timeline_.slowest_until(std::max<std::uint64_t>(to, 1) - 1) -
                            timeline_.slowest_until(std::max<std::uint64_t>(from, 1) - 1));

@@ -1,5 +1,5 @@
-// Measures how slow a mill is by how fast a line that it stops takes the bytes of a job. README.md says what that can
-// show.
+// Measurement of a mill's pace: how fast bytes of a job leave the host on a line that the mill stops when its buffer is
+// full. README.md describes the limits of this measurement.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +16,25 @@ namespace axisgate::rml1 {
 // Factor by which the rest of a job may be slower or faster than its measured part.
 inline constexpr double kUnsteady = 1.1;
 
-// Returns the settings with the measured slack, if they say `slack_as_measured`.
+// Returns the settings with a slack computed from the measured pace, if `slack_as_measured` is set and the pace was
+// measured; otherwise returns them unchanged.
 jobs::SendSettings with_pace(jobs::SendSettings settings, const std::optional<jobs::MeasuredPace>& measured);
 
-// A PaceMeter measures by one job. Not thread safe.
+// A PaceMeter measures the pace during one job. Not thread safe.
 class PaceMeter {
  public:
-  // `unread`: bytes that have left the host and that the mill has not read, at most. `timeline` outlives this.
+  // `unread`: greatest possible number of bytes that have left the host but were not read by the mill. `timeline` must
+  // outlive this object.
   PaceMeter(const Timeline& timeline, std::size_t unread) : timeline_(timeline), unread_(unread) {}
 
-  // Notes that the mill stops the line when so many bytes of the job have left the host. Both ascend.
+  // Notes that the mill stops the line at `now`, when `left` bytes of the job have left the host. Neither argument may
+  // decrease from call to call.
   void stopped(std::uint64_t left, TimePoint now);
-  // Notes that the mill may wait for bytes from here on.
+  // Notes that the mill may have to wait for bytes from now on, so that measuring must begin again.
   void interrupted();
 
-  // Returns nullopt if the line was not stopped over enough of the job to know the range within a fifth.
+  // Returns the measured pace. Returns nullopt until enough of the job was sent on a stopped line to give a range whose
+  // high end is at most 1.2 times its low end.
   std::optional<jobs::MeasuredPace> pace() const;
 
  private:
@@ -45,8 +49,8 @@ class PaceMeter {
 
   const Timeline& timeline_;
   const std::size_t unread_;
-  std::optional<Stop> first_, last_;          // since it was interrupted
-  std::optional<jobs::MeasuredPace> before_;  // it was: the narrowest
+  std::optional<Stop> first_, last_;          // since the last call of interrupted()
+  std::optional<jobs::MeasuredPace> before_;  // narrowest range measured before that call
 };
 
 }  // namespace axisgate::rml1

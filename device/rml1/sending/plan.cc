@@ -11,7 +11,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-// The mill loses what its buffer has no room for if there is no flow control.
+// A computed window is at most as large as the mill's buffer: without flow control, the mill loses bytes for which its
+// buffer has no room.
 std::size_t window_of(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings) {
   if (settings.window > 0) return settings.window;
   if (settings.streaming == jobs::Streaming::full) return kWindows[0];
@@ -39,7 +40,8 @@ double most_within(std::size_t bytes, const Timeline& timeline, float Step::*amo
   return most;
 }
 
-// The line sends or the mill executes: where the line is held, the mill has something to do.
+// RunOn::longest is the time to send plus the time to execute: at any moment the line sends or the mill executes,
+// because a mill that stops the line has commands to execute.
 jobs::RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& timeline,
                       const jobs::SendSettings& settings) {
   const std::chrono::duration<double> executing(most_within(at_most, timeline, &Step::slowest_s) * settings.slack);
@@ -49,7 +51,8 @@ jobs::RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& 
 
 }  // namespace
 
-// The mill's buffer may be full while it executes a command, and another one is in the host.
+// `full` adds up the mill's buffer, a converter's buffer, the command that the mill executes, and the command that
+// waits in the host.
 SendPlan plan_of(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings) {
   const std::size_t window = window_of(job, timeline, settings);
   const std::size_t longest = longest_write(job, window);

@@ -1,4 +1,4 @@
-// The plan of a job, computed before it is sent. That reads the whole job: do it off the device's strand.
+// Plan for sending a job, computed before the job is sent.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,12 @@
 namespace axisgate::rml1 {
 
 struct SendPlan {
-  std::size_t window = 0;  // bytes, of paced streaming
+  std::size_t window = 0;  // in bytes, for paced streaming
   double slack = 1;        // SendSettings::slack
   jobs::RunOn run_on;
 };
 
+// Computes the plan. Reads the whole job, so do not call it on the device's strand.
 SendPlan plan_of(std::string_view job, const Timeline& timeline, const jobs::SendSettings& settings);
 
 }  // namespace axisgate::rml1

@@ -53,7 +53,7 @@ std::optional<jobs::SenderState> next(jobs::SenderState state, SendEvent event) 
   return next_in(kTable, state, event);
 }
 
-// A request of somebody, which the state need not allow.
+// Changes the state. Returns false, without any effect, if the state does not allow the event.
 bool Sender::request(SendEvent event) {
   const auto to = next(state_, event);
   if (to) state_ = *to;
@@ -85,7 +85,7 @@ void Sender::raise(TimePoint now) {
   if (request(SendEvent::raise)) line_.write(lift_words(profile_, rests_after_written()));
 }
 
-// The spindle, when the mill has executed all that was written.
+// Reports whether the spindle is stationary when the mill has executed all written bytes.
 bool Sender::rests_after_written() const {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);
@@ -94,7 +94,7 @@ bool Sender::rests_after_written() const {
 
 void Sender::line_lost(TimePoint) { request(SendEvent::line_lost); }
 
-// The abort comes after what was written of the job, which is whole commands.
+// The abort follows the written part of the job, which ends with a complete command or set of coordinates.
 void Sender::abort(TimePoint now) {
   learn(now);
   const bool rests = may_rest(now);
@@ -117,7 +117,7 @@ void Sender::advance(TimePoint now) {
   if (state_ == jobs::SenderState::raising && has_raised(now)) change(SendEvent::all_executed);
 }
 
-// The mill begins to raise the tool when it has executed what was sent of the job.
+// The mill begins to raise the tool when it has executed the sent bytes of the job.
 bool Sender::has_raised(TimePoint now) {
   if (is_blocked() || slowest_.executed(now) < cutter_.begin()) {
     raised_at_.reset();
@@ -127,7 +127,7 @@ bool Sender::has_raised(TimePoint now) {
   return now >= *raised_at_;
 }
 
-// A mill that has executed all has room, so what it holds back has not all been executed.
+// A mill that has executed everything has room in its buffer. So if the line is blocked, some bytes were not executed.
 bool Sender::all_is_executed(TimePoint now) {
   if (guarded(jobs::MillGuard::fed_when_arrived) && is_blocked()) return false;
   return !guarded(jobs::MillGuard::fed_by_the_slowest) || slowest_.executed(now) >= job_.size();
@@ -161,8 +161,8 @@ bool Sender::has_room(TimePoint now) {
   return executed == cutter_.begin() || cutter_.end() - executed <= plan_.window;
 }
 
-// Bytes that have left the host, and fit neither into the mill's buffer nor between the two, have been read by the
-// mill. Only flow control proves that: without it a mill loses what it has no room for.
+// The mill has read all bytes that have left the host, except as many as its buffer and a converter can contain. Only
+// flow control makes this certain: without it, a mill loses bytes for which it has no room.
 void Sender::learn(TimePoint now) {
   learn_what_waits(now);
   measure(now);
@@ -173,13 +173,14 @@ void Sender::learn(TimePoint now) {
   if (left > between) taken_ = std::max<std::uint64_t>(taken_, left - between);
 }
 
-// Otherwise what leaves the host may be lost: in a full buffer, as after an abort, or with the line.
+// Reports whether flow control keeps bytes that leave the host from being lost. Without flow control, and after an
+// abort (which may ignore it), a full buffer may lose bytes; a lost line loses bytes too.
 bool Sender::heeds_flow_control() const {
   return settings_.flow_control && state_ != jobs::SenderState::aborting && !is_end(state_);
 }
 
-// A line that the mill stops shows that it has bytes to read. XOFF, and the printer driver, show only as bytes that do
-// not leave.
+// A line that the mill has stopped shows that the mill has bytes to read. The host cannot see XOFF or a stop by the
+// printer driver; it sees only that bytes do not leave.
 void Sender::measure(TimePoint now) {
   const bool sends = state_ == jobs::SenderState::sending || state_ == jobs::SenderState::finishing;
   if (settings_.streaming != jobs::Streaming::full || !sends) return;
@@ -188,7 +189,7 @@ void Sender::measure(TimePoint now) {
   meter_.stopped(cutter_.begin() - std::min(unsent, cutter_.begin()), now);
 }
 
-// Bytes wait on this side of a line that is held: in the host, and perhaps in a converter.
+// Notes which bytes have not arrived: those in the host, and, if the line is held, those that may be in a converter.
 void Sender::learn_what_waits(TimePoint now) {
   if (!guarded(jobs::MillGuard::counted_from_arrival) || !is_blocked()) return;
   const std::size_t waits = line_.unsent() + (line_.held() ? settings_.converter : 0);
@@ -196,12 +197,14 @@ void Sender::learn_what_waits(TimePoint now) {
   arrives_ = std::max(arrives_, now + transmit_time(waits, settings_.baud));
 }
 
-// Looks at each step in which the mill may be when the abort reaches it.
+// Reports whether the spindle may be stationary when the abort reaches the mill. Checks each step that the mill may be
+// executing then.
 bool Sender::may_rest(TimePoint now) {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, slowest_.executed(now), {}, &Step::end);
   if (next == steps.begin()) return true;
-  const auto unknown = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);  // to the mill
+  // The first step whose bytes were not all written.
+  const auto unknown = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);
   if (unknown == steps.end() && !timeline_.turns_at_end()) return true;
   const auto last = unknown == steps.end() ? unknown : unknown + 1;
   return !std::all_of(next - 1, last, [](const Step& one) { return one.turning; });
@@ -224,17 +227,19 @@ std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   }
 }
 
-// The line does not rest longer than necessary after its last byte.
+// Returns kLook, or the time that the unsent bytes need if that is shorter, so that the line is not idle for longer
+// than necessary.
 Duration Sender::until_next_look() const {
   return line_.unsent() > 0 ? std::min(kLook, transmit_time(line_.unsent(), settings_.baud)) : kLook;
 }
 
-// A line that is held stops what a converter has of the last command.
+// Returns `due`, or an earlier time while bytes of the last command may be in a converter: if the line is held, they
+// stay there.
 TimePoint Sender::look_before(TimePoint due, TimePoint now) const {
   return arrives_ > now ? std::min(due, now + kLook) : due;
 }
 
-// For the next command.
+// Returns the time at which the window has room for the next command.
 TimePoint Sender::room_at() const {
   const std::size_t over = cutter_.end() > plan_.window ? cutter_.end() - plan_.window : 0;
   return slowest_.when(std::min<std::uint64_t>(over, cutter_.begin()));

@@ -1,4 +1,4 @@
-// Sends a job from its first byte to its last, with pause and abort. README.md has the table of its states.
+// Sender of a job, from its first byte to its last, with pause and abort. README.md has the table of its states.
 #pragma once
 
 #include <cstdint>
@@ -25,53 +25,55 @@ enum class SendEvent { start, pause, resume, raise, all_written, all_executed, a
 std::string_view name(SendEvent event);  // "start", as in README.md
 inline constexpr std::size_t kSendEvents = 9;
 
-// Returns the state after the event; nullopt if the table has none.
+// Returns the state after the event; nullopt if the table does not allow the event.
 std::optional<jobs::SenderState> next(jobs::SenderState state, SendEvent event);
 
-// A MillLine is what a sender shares with everything else that writes to the mill.
+// A MillLine is the line to a mill, with the other objects that all writers to this line share.
 struct MillLine {
   FlowLink& line;
   Abort& abort;
   Violations& violations;
 };
 
-// Not thread safe. Each call may change the state; `now` never goes back.
+// A Sender sends one job. Not thread safe. Each call may change the state. `now` must never decrease.
 class Sender {
  public:
-  // `job`: with prologue and epilogue, checked. `plan`: of the job and the settings. The referenced objects must
-  // outlive this one.
+  // `job`: checked bytes with prologue and epilogue. `plan`: plan_of() this job with these settings. The referenced
+  // objects must outlive this one.
   Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const jobs::SendSettings& settings,
          const SendPlan& plan, const MillLine& mill);
 
   jobs::RunOn run_on() const { return plan_.run_on; }
 
-  // A call that the present state does not allow has no effect.
+  // A request that the present state does not allow has no effect.
   void start(TimePoint now);
   void pause(TimePoint now);
   void resume(TimePoint now);
-  // Sends no more of the job, and raises the tool after the last sent byte.
+  // Stops sending the job, and writes the commands that raise the tool and stop the spindle after the last sent byte.
   void raise(TimePoint now);
-  // Ends the writing of the job and requests the abort.
+  // Stops sending the job, and writes the abort.
   void abort(TimePoint now);
   void line_lost(TimePoint now);
 
   void advance(TimePoint now);
-  // Returns when to call advance() again; nullopt: not before another call.
+  // Time at which advance() must be called next; nullopt if only another call can change the sender.
   std::optional<TimePoint> next_deadline(TimePoint now) const;
 
   jobs::SenderState state() const { return state_; }
   jobs::SendProgress progress(TimePoint now);
-  // Bytes of the job that the mill has executed even if its panel holds it: while the line is stopped, all that has
-  // left the host but what the mill's buffer and a converter hold.
+  // Returns the number of bytes of the job that the slowest mill has executed. If bytes cannot leave the host, the mill
+  // may be paused at its panel: then returns at most the number of bytes that have left the host, minus the sizes of
+  // the mill's buffer and of a converter.
   std::uint64_t executed_for_certain(TimePoint now);
-  // Reports whether the mill's buffer may have been full when the abort came, so that the mill may have dropped it: its
-  // panel may have held it all the time. A mill with flow control stops its host while it still has room.
+  // Reports whether the mill may have dropped the abort because its buffer was full. This is possible without flow
+  // control if the written bytes and the abort exceed the buffer, because the mill may have been paused at its panel
+  // all the time. With flow control, the mill stops its host while it still has room.
   bool abort_may_be_dropped() const;
   // Measured pace of the mill. nullopt with paced streaming, or before the line has been stopped long enough to measure
   // it.
   std::optional<jobs::MeasuredPace> measured_pace() const { return meter_.pace(); }
 
-  // Between two looks at a line that has something to send, or is held, at most.
+  // Longest time between two checks of a line that has bytes to send or is held.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
 
  private:
@@ -104,11 +106,11 @@ class Sender {
   Pace slowest_, fastest_;
   PaceMeter meter_;
   jobs::SenderState state_ = jobs::SenderState::ready;
-  Cutter cutter_;  // written up to its begin()
-  std::uint64_t taken_ = 0;
-  TimePoint leaves_{};                  // the last of them, the host, if nothing stops the line
-  TimePoint arrives_{};                 // likewise, at the mill: a converter may hold what has left the host
-  std::optional<TimePoint> raised_at_;  // at the latest; nothing: what was sent of the job may not have been executed
+  Cutter cutter_;            // the bytes before its begin() were written
+  std::uint64_t taken_ = 0;  // SendProgress::taken
+  TimePoint leaves_{};       // when the last written byte leaves the host, if nothing stops the line
+  TimePoint arrives_{};      // when the last written byte reaches the mill; later than leaves_ if a converter delays it
+  std::optional<TimePoint> raised_at_;  // latest end of the raise; nullopt until all sent bytes have been executed
 };
 
 }  // namespace axisgate::rml1

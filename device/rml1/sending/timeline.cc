@@ -26,7 +26,7 @@ class Recorder : public MachineListener {
     add(move.end, move_time(move, profile_, knows_z0_), move.turning, length(move.to - move.from) * profile_.step_mm);
   }
   void waited(Wait what, double seconds, std::uint64_t end) override {
-    const bool rests = what == Wait::spin_up;  // until then
+    const bool rests = what == Wait::spin_up;  // the spindle does not turn at the beginning of its spin-up
     add(end, wait_time(what, seconds, profile_.acceleration), !rests && machine_.spindle_turns());
   }
   void commanded(const jobs::Point&, const jobs::Point&, bool, const Instruction& by) override {

@@ -1,4 +1,4 @@
-// The steps of a job, in the order of its bytes, and how long each may take.
+// Steps of a job, in the order of its bytes, and how long each step may take.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,28 @@
 
 namespace axisgate::rml1 {
 
-// A move, a dwell or a spin-up.
+// A Step is a move, a dwell, a spin-up, or a turn of the axis of rotation. Durations are in seconds.
 struct Step {
-  std::uint64_t end = 0;          // bytes of the job that had to come before
-  float least_s = 0, most_s = 0;  // the range that people see (move_time.h)
-  float slowest_s = 0;            // by the slowest mill that the profile has: for what runs on
-  float mm = 0;                   // of a move
-  double slowest_until_s = 0;     // the sum up to the end of this one
-  bool turning = false;           // the spindle, from its beginning on
+  std::uint64_t end = 0;          // number of bytes of the job that must arrive before the step
+  float least_s = 0, most_s = 0;  // range that is displayed to people (move_time.h)
+  float slowest_s = 0;            // duration on the slowest mill of the profile, for bounds (move_time.h)
+  float mm = 0;                   // length of a move; 0 for other steps
+  double slowest_until_s = 0;     // sum of `slowest_s` of all steps up to and including this step
+  bool turning = false;           // the spindle turns from the beginning of the step
 };
 
 class Timeline {
  public:
-  // The job was checked: errors in it are passed over, as by a mill. `origin`: as of the check.
+  // `job`: checked bytes; commands with errors are ignored, as a mill ignores them. `origin`: the origin of the check.
   Timeline(std::string_view job, const Profile& profile, std::optional<jobs::Origin> origin);
 
   const std::vector<Step>& steps() const { return steps_; }
+  // Returns the sum of Step::slowest_s over all steps.
   double slowest_s() const { return slowest_s_; }
-  // Returns the time of the steps that end with so many bytes, or before.
+  // Returns the sum of Step::slowest_s over the steps that need no more than the first `end` bytes.
   double slowest_until(std::uint64_t end) const;
   double slowest_after(std::uint64_t executed) const { return slowest_s_ - slowest_until(executed); }
-  // Reports whether the spindle turns at the end.
+  // Reports whether the spindle turns at the end of the job.
   bool turns_at_end() const { return turns_at_end_; }
 
  private:

@@ -1,4 +1,4 @@
-// Chooses how many bytes a mill is given ahead of those that it has executed.
+// Choice of the window: how many bytes may be sent beyond those that the mill has executed.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,12 @@
 
 namespace axisgate::rml1 {
 
-// The first is enough where each command takes the mill longer than the line. The last is half of the mill's buffer.
-inline constexpr std::size_t kWindows[] = {64, 128, 256, 512};  // bytes
+// Possible windows, in bytes. The first is large enough if the mill needs more time for each command than the line. The
+// last is half of the default SendSettings::buffer.
+inline constexpr std::size_t kWindows[] = {64, 128, 256, 512};
 
-// The smallest of these with which a mill that is `slower` times as slow as the slowest of its profile waits for its
-// bytes hardly longer than with the largest: the job takes at most a hundredth longer.
+// Returns the smallest of kWindows with which the job takes at most 1 % longer than with the largest, on a mill that
+// needs `slower` times as long as the slowest mill of its profile.
 std::size_t adapted_window(std::string_view job, const Timeline& timeline, double slower, int baud);
 
 }  // namespace axisgate::rml1

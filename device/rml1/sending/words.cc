@@ -7,14 +7,14 @@
 
 namespace axisgate::rml1 {
 
-// Machine coordinates, whatever Z0 is (guideline 3-3 !ZM).
+// !ZM takes a machine coordinate, so Z0 has no effect on the raise (guideline 3-3 !ZM).
 std::string raise(const Profile& profile) {
   return fmt::format("!VZ{:g};!ZM{};", profile.speed.z_maximum, std::llround(profile.top));
 }
 
 std::string prologue() { return ";^DF;"; }
 
-// DF permits the spindle, so that !MC0 comes after it.
+// DF permits the spindle to turn, so !MC0 follows it.
 std::string epilogue(const Profile& profile, bool turning) {
   return fmt::format(";{}^PA;{}!MC0;^DF;!MC0;", turning ? "" : "!MC0;", raise(profile));
 }
@@ -27,7 +27,7 @@ std::string abort_words(const Profile& profile, bool may_rest) {
   return "\x1B.K\x1B.K" + lift_words(profile, may_rest);
 }
 
-// This is at least the `slowest` of move_time().
+// The result is at least `slack` times the `slowest` of move_time().
 Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack) {
   const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
   return std::chrono::duration_cast<Duration>(

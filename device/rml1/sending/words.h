@@ -1,4 +1,4 @@
-// Bytes that are written around a job, so that its modes do not reach the next one, and to abort it.
+// Commands that are written before and after a job, so that its modes do not affect the next job, and to abort a job.
 #pragma once
 
 #include <string>
@@ -8,20 +8,23 @@
 
 namespace axisgate::rml1 {
 
-// Ends what may be open in the mill, and sets the language's defaults (guideline 3-1 DF).
+// Returns the commands that end an incomplete command in the mill and restore the default settings (guideline 3-1 DF).
 std::string prologue();
-// The tool up, the spindle off, the defaults. `turning`: the job leaves the spindle turning; then the tool is raised
-// before it stops.
+// Returns the commands that raise the tool, stop the spindle and restore the default settings. `turning`: true if the
+// spindle turns at the end of the job; then it stops only after the raise.
 std::string epilogue(const Profile& profile, bool turning);
-// The tool to the top, at Z's highest speed. Behind PA.
+// Returns the commands that raise the tool to the top at Z's highest speed. They must follow PA.
 std::string raise(const Profile& profile);
-// README.md says why in this order. `may_rest`: the spindle may not be turning, and be permitted to.
+// Returns the commands of an abort; README.md gives the reason for their order. `may_rest`: true if the spindle may be
+// stationary although it is permitted to turn; !MC0 then precedes the raise, which would start the spindle.
 std::string abort_words(const Profile& profile, bool may_rest);
 
-// The tool up, and then the spindle off; sent after whole commands. `may_rest`: as of abort_words().
+// Returns the commands that raise the tool and then stop the spindle. They must follow complete commands. `may_rest`:
+// as for abort_words().
 std::string lift_words(const Profile& profile, bool may_rest);
 
-// A way that one axis goes from stop to stop, by a mill that is `slack` times as slow as the slowest of the profile.
+// Returns the longest time of a straight move of `mm` from stop to stop, on a mill that needs `slack` times as long as
+// the slowest mill of the profile.
 Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack);
 
 }  // namespace axisgate::rml1
