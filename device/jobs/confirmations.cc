@@ -72,8 +72,8 @@ Result<void> Confirmations::check_next(JobNumber number) const {
 }
 
 // A job that continues the workpiece of another job was checked with the heights of that job, so Z0 must be the same.
-Result<void> Confirmations::check_surface(const Job& job) const {
-  const bool as_checked = job.surfaces == left_.surfaces();
+Result<void> Confirmations::check_z0(const Job& job) const {
+  const bool as_checked = job.z0_count == left_.z0_count();
   if (job.continues == 0 || job.setup.from || !waits_to_begin(job) || as_checked) return {};
   return fail(Reason::stale_setpoint,
               fmt::format("Z0 was sent to the mill since job {} began, and {} was checked on its workpiece",
@@ -83,7 +83,7 @@ Result<void> Confirmations::check_surface(const Job& job) const {
 
 Result<void> Confirmations::confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now) {
   Job& job = queue_.at(number);
-  const Result<void> checked = check_surface(job).and_then([&] { return check_same_left(job, seen); }).and_then([&] {
+  const Result<void> checked = check_z0(job).and_then([&] { return check_same_left(job, seen); }).and_then([&] {
     return check_same_setup(job, seen);
   });
   if (!checked) return checked;

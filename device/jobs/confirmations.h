@@ -37,7 +37,7 @@ class Confirmations {
 
  private:
   Result<void> check_settled() const;
-  Result<void> check_surface(const Job& job) const;
+  Result<void> check_z0(const Job& job) const;
 
   JobQueue& queue_;
   const SetupLeft& left_;

@@ -18,7 +18,7 @@ std::string step_text(const JogStep& step) {
   return step.mm_per_s ? fmt::format("{} at {:g} mm/s", text, *step.mm_per_s) : text;
 }
 
-std::string surface_text(const SetSurface& surface) {
+std::string surface_text(const SetZ0& surface) {
   return surface.at ? fmt::format("set Z0 to the machine coordinate {}", *surface.at) : "set Z0 to where the tool is";
 }
 
@@ -26,7 +26,7 @@ std::string surface_text(const SetSurface& surface) {
 
 std::string text_of(const HandAct& act) {
   if (const auto* step = std::get_if<JogStep>(&act)) return step_text(*step);
-  if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_text(*surface);
+  if (const auto* surface = std::get_if<SetZ0>(&act)) return surface_text(*surface);
   if (const auto* spindle = std::get_if<TurnSpindle>(&act))
     return spindle->on ? "start the spindle" : "stop the spindle";
   return "raise the tool";

@@ -15,7 +15,7 @@ struct JogStep {
 };
 
 // Sets Z0 for later jobs. X and Y can be set only at the machine's panel.
-struct SetSurface {
+struct SetZ0 {
   std::optional<std::int64_t> at{};  // machine coordinate, in steps; nullopt: the present height of the tool
 };
 
@@ -26,7 +26,7 @@ struct TurnSpindle {
 // Raises the tool to the top and stops the spindle.
 struct RaiseTool {};
 
-using HandAct = std::variant<JogStep, SetSurface, TurnSpindle, RaiseTool>;
+using HandAct = std::variant<JogStep, SetZ0, TurnSpindle, RaiseTool>;
 
 // Returns the act as text for the log and the journal: "jog by X 5 mm, Z -0.5 mm".
 std::string text_of(const HandAct& act);

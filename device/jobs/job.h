@@ -120,7 +120,7 @@ struct Job {
   std::optional<Streaming> streaming{};   // nullopt: as configured for the mill
   std::optional<Stock> stock{};           // nullopt: unknown
   JobNumber continues = 0;                // the job whose workpiece this job continues; 0: the workpiece is new
-  std::uint64_t surfaces = 0;             // Machine::surfaces() at the last start; before a start, see Machine::add()
+  std::uint64_t z0_count = 0;             // Machine::z0_count() at the last start; before a start, see Machine::add()
   std::string checked_for{};              // digest of the profile and the origin that the check used
   std::string planned_for{};              // settings with which the times were computed, as text
   TimePoint queued_since{};               // when the job was sent, or when its last confirmation became void

@@ -44,9 +44,9 @@ struct JobRest {
 class MachineEvents : public QueueEvents, public RunEvents {
  public:
   virtual void link_changed(MachineLink link, std::string_view why, TimePoint now) = 0;
-  // Reports that Z0 is sent to the machine. `surfaces`: the new surfaces(), which must be stored for the next run of
+  // Reports that Z0 is sent to the machine. `z0_count`: the new z0_count(), which must be stored for the next run of
   // the daemon.
-  virtual void surface_set(std::uint64_t surfaces) = 0;
+  virtual void z0_sent(std::uint64_t z0_count) = 0;
   // Reports bytes that were given to the line. `job`: number of the running job; 0 if no job runs.
   virtual void written(std::string_view bytes, JobNumber job) = 0;
   // Reports that somebody requested an abort, with or without a running job.
@@ -75,11 +75,11 @@ class Machine : public LineMachine {
   virtual void inherit_left(const Job& last) = 0;
   // Takes over an abort that the previous run could not send.
   virtual void inherit_abort() = 0;
-  // Takes over the surfaces() of the previous run.
-  virtual void inherit_surfaces(std::uint64_t surfaces) = 0;
+  // Takes over the z0_count() of the previous run.
+  virtual void inherit_z0_count(std::uint64_t z0_count) = 0;
 
   // Adds the job after all other jobs. Its number must be greater than theirs. A job with JobSetup::from is the rest of
-  // another job. Any other job with Job::continues must have Job::surfaces: the surfaces() for which its heights are
+  // another job. Any other job with Job::continues must have Job::z0_count: the z0_count() for which its heights are
   // valid.
   virtual void add(Job job, TimePoint now) = 0;
   // Confirms a job for a person at the machine. Fails with link_down; with wrong_mode if a job runs; and as
@@ -132,7 +132,7 @@ class Machine : public LineMachine {
   // nullopt if no job could measure the pace.
   virtual const std::optional<MeasuredPace>& measured_pace() const = 0;
   // Number of times that Z0 was sent, by hand or by a job.
-  virtual std::uint64_t surfaces() const = 0;
+  virtual std::uint64_t z0_count() const = 0;
 };
 
 }  // namespace axisgate::jobs

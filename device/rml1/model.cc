@@ -115,7 +115,7 @@ Result<jobs::Place> MillModel::rest_from(const jobs::PartToPrepare& part, std::u
 }
 
 Result<Duration> MillModel::longest(const jobs::HandAct& act, double slack) const {
-  return words_of(act, profile_, slack).map([](const HandWords& words) { return words.longest; });
+  return words_of(act, profile_, slack).map([](const HandCommands& words) { return words.longest; });
 }
 
 std::unique_ptr<jobs::Machine> MillModel::make_machine(const jobs::MachineSettings& settings, FlowLink& line,

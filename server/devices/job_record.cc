@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<char, 16> kMark = {'a', 'x', 'i', 's', 'g', 'a', 't', 'e', ' ', 'j', 'o', 'b', ' ', '1', '\n', 0};
 constexpr std::size_t kNameSize = 104;  // longest name in the spool, and a terminating 0
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kLostSurfaces = 1'000'000;  // more than can be sent between two boots
+constexpr std::uint64_t kLostCounts = 1'000'000;  // more than can be sent between two boots
 
 std::uint64_t bits_of(const jobs::Leaves& leaves) {
   return (leaves.surface ? 1u : 0u) | (leaves.revolutions ? 2u : 0u) | (leaves.rotation ? 4u : 0u) |
@@ -52,7 +52,7 @@ struct JobRecord::Content {
   std::atomic<std::uint64_t> job, state, through, part, from, abort_waits, leaves;
   std::array<char, kNameSize> name;       // changes only while `job` is 0
   std::atomic<std::uint64_t> sent_least;  // 0 in the file of an older daemon: nothing is known to have been sent
-  std::atomic<std::uint64_t> surfaces;
+  std::atomic<std::uint64_t> z0_count;
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -86,11 +86,11 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   abort_waited_ = known && content->abort_waits != 0;
   if (!known) {
     content->job = 0;
-    content->surfaces = 0;
+    content->z0_count = 0;
   }
   if (!same_boot) {
-    content->through = kAll;             // counts for the next run, too
-    content->surfaces += kLostSurfaces;  // the last counts may not have reached the disk
+    content->through = kAll;           // counts for the next run, too
+    content->z0_count += kLostCounts;  // the last counts may not have reached the disk
   }
   content->mark = kMark;
   set_text(content->boot, boot);
@@ -124,9 +124,9 @@ void JobRecord::set_state(const jobs::Job& job) {
   content_->state = static_cast<std::uint64_t>(job.state);
 }
 
-std::uint64_t JobRecord::surfaces() const { return content_->surfaces; }
+std::uint64_t JobRecord::z0_count() const { return content_->z0_count; }
 
-void JobRecord::set_surfaces(std::uint64_t surfaces) { content_->surfaces = surfaces; }
+void JobRecord::set_z0_count(std::uint64_t z0_count) { content_->z0_count = z0_count; }
 
 void JobRecord::set_abort_waits(bool waits) { content_->abort_waits = waits ? 1 : 0; }
 

@@ -39,8 +39,8 @@ class JobRecord {
   const std::optional<LastJob>& before() const { return before_; }
   // Reports whether the previous run had an abort that had not left this host.
   bool abort_waited() const { return abort_waited_; }
-  // MillController::surfaces() of earlier runs.
-  std::uint64_t surfaces() const;
+  // MillController::z0_count() of earlier runs.
+  std::uint64_t z0_count() const;
 
   // Records the start of a job, of its next part, or of the rest of a part.
   void begin(const jobs::Job& job);
@@ -49,7 +49,7 @@ class JobRecord {
   // Records the job's state and part. Has no effect unless the job is the last that was begun.
   void set_state(const jobs::Job& job);
   void set_abort_waits(bool waits);
-  void set_surfaces(std::uint64_t surfaces);
+  void set_z0_count(std::uint64_t z0_count);
 
  private:
   struct Content;

@@ -48,7 +48,7 @@ Mill::~Mill() { spool_thread_->join(); }
 // Restores jobs that had not ended when the previous run ended. Their confirmations are void.
 void Mill::restore_jobs() {
   if (record_ && record_->abort_waited()) controller_->inherit_abort();
-  if (record_) controller_->inherit_surfaces(record_->surfaces());
+  if (record_) controller_->inherit_z0_count(record_->z0_count());
   const auto last = record_ ? record_->before() : std::nullopt;
   if (last) controller_->inherit_left({.number = last->job, .name = last->name, .leaves = last->leaves});
   for (jobs::Job& job : unended_jobs(spool_, name())) {
@@ -159,8 +159,8 @@ void Mill::internal_error(std::string_view what, TimePoint) {
   log::error("{}: {}; the mill is aborted, and its line opened again", name(), what);
 }
 
-void Mill::surface_set(std::uint64_t surfaces) {
-  if (record_) record_->set_surfaces(surfaces);
+void Mill::z0_sent(std::uint64_t z0_count) {
+  if (record_) record_->set_z0_count(z0_count);
 }
 
 void Mill::about_to_write(jobs::JobNumber, const jobs::WrittenRange& sent) {
@@ -211,7 +211,7 @@ MillNow Mill::now(TimePoint at) {
           controller_->measured_pace(),
           moment_of(at),
           ended_,
-          controller_->surfaces()};
+          controller_->z0_count()};
 }
 
 void Mill::wind_down(std::function<void()> done) {

@@ -34,7 +34,7 @@ struct MillNow {
   std::optional<jobs::MeasuredPace> measured_pace;
   Moment clock;                    // clock by which the times are shown
   std::optional<jobs::Job> ended;  // job that left the queue last
-  std::uint64_t surfaces = 0;      // value of Machine::surfaces()
+  std::uint64_t z0_count = 0;      // value of Machine::z0_count()
 };
 
 class Mill final : public Device, private jobs::MachineEvents {
@@ -85,7 +85,7 @@ class Mill final : public Device, private jobs::MachineEvents {
   void link_changed(jobs::MachineLink link, std::string_view why, TimePoint now) override;
   void job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
   void rank_changed(const jobs::Job& job) override { keep(job); }
-  void surface_set(std::uint64_t surfaces) override;
+  void z0_sent(std::uint64_t z0_count) override;
   void internal_error(std::string_view what, TimePoint now) override;
   void sender_changed(const jobs::RunningJob& running, TimePoint now) override;
   void about_to_write(jobs::JobNumber job, const jobs::WrittenRange& sent) override;

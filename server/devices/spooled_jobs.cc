@@ -154,7 +154,7 @@ std::string facts_of(const jobs::Job& job) {
   if (job.written) facts["written"] = {job.written->least, job.written->most};
   if (job.executed) facts["executed"] = {facts_of(job.executed->least), facts_of(job.executed->most)};
   if (job.continues != 0) facts["continues"] = job.continues;
-  facts["surfaces"] = job.surfaces;
+  facts["z0_count"] = job.z0_count;
   if (is_end(job.state)) facts["ended_as"] = name(job.state);
   return facts.dump();
 }
@@ -187,7 +187,7 @@ jobs::Job job_of(const spool::Job& spooled) {
     job.stock = jobs::Stock{stock[0], stock[1], stock[2]};
   }
   job.continues = facts.value("continues", jobs::JobNumber{0});
-  job.surfaces = facts.value("surfaces", std::uint64_t{0});
+  job.z0_count = facts.value("z0_count", std::uint64_t{0});
   job.setup.from = place_in(facts);
   if (job.setup.from) job.written = written_in(facts);
   if (is_fresh_rest(job)) return job;

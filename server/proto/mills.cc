@@ -240,8 +240,8 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
           jobs::JogStep{step.x_mm(), step.y_mm(), step.z_mm(), given(step.has_mm_per_s(), step.mm_per_s())}};
     }
     case v1::OperateMillRequest::kSurface: {
-      const v1::SetSurface& surface = request.surface();
-      return api::HandRequest{jobs::SetSurface{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
+      const v1::SetZ0& surface = request.surface();
+      return api::HandRequest{jobs::SetZ0{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
     }
     case v1::OperateMillRequest::kSpindle:
       return api::HandRequest{jobs::TurnSpindle{request.spindle()}};

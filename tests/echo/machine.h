@@ -25,7 +25,7 @@ class EchoMachine final : public jobs::Machine, private Violations {
   void inherit(jobs::Job job) override { queue_.inherit(std::move(job)); }
   void inherit_left(const jobs::Job& last) override { left_.inherit(last); }
   void inherit_abort() override { abort_waits_ = true; }
-  void inherit_surfaces(std::uint64_t) override {}
+  void inherit_z0_count(std::uint64_t) override {}
 
   void add(jobs::Job job, TimePoint now) override { queue_.add(std::move(job), now); }
   Result<void> confirm(jobs::JobNumber job, const jobs::JobSetup& seen, std::string by, TimePoint now) override;
@@ -52,7 +52,7 @@ class EchoMachine final : public jobs::Machine, private Violations {
   bool abort_waits() const override { return abort_waits_; }
   jobs::MachineLink link() const override { return link_; }
   const std::optional<jobs::MeasuredPace>& measured_pace() const override { return pace_; }
-  std::uint64_t surfaces() const override { return 0; }
+  std::uint64_t z0_count() const override { return 0; }
 
   void link_up(TimePoint now) override;
   void link_down(TimePoint now, std::string_view why) override;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/abort_bench.h"
 #include "tests/rml1/trace.h"
 
@@ -141,7 +141,7 @@ std::string without(std::string words, std::string_view part) { return words.era
 constexpr const char* kCutting = "^PA;V15;PD0,0;V0.5;VS1;PD1500,0;PD0,0;";
 
 TEST(AbortWords, EscapeKTwice) {
-  const std::string words = abort_words(test_profile(), false);
+  const std::string words = abort_commands(test_profile(), false);
   EXPECT_EQ(Reached(kCutting, words).state.tool.z, kTop);
   const Reached once(kCutting, without(words, "\x1B.K"));
   EXPECT_EQ(once.state.tool.z, -100);
@@ -149,25 +149,25 @@ TEST(AbortWords, EscapeKTwice) {
 }
 
 TEST(AbortWords, SpindleForbiddenBeforeTheRaise) {
-  const std::string resting = "!MC0;^PA;V15;PD0,0;!MC1;", words = abort_words(test_profile(), true);
+  const std::string resting = "!MC0;^PA;V15;PD0,0;!MC1;", words = abort_commands(test_profile(), true);
   EXPECT_TRUE(Reached(resting, words).bench.recorded("spindle").empty());
   EXPECT_EQ(Reached(resting, without(words, "!MC0;")).bench.recorded("spindle").size(), 2u) << "it turns, and stops";
 }
 
 TEST(AbortWords, AbsoluteCoordinates) {
-  const std::string relative = "^PA;V15;PD0,0;^PR;VS1;PD1500,0;", words = abort_words(test_profile(), false);
+  const std::string relative = "^PA;V15;PD0,0;^PR;VS1;PD1500,0;", words = abort_commands(test_profile(), false);
   EXPECT_EQ(Reached(relative, words).state.tool.z, kTop);
   EXPECT_EQ(Reached(relative, without(words, "^PA;")).state.tool.z, -100);
 }
 
 TEST(AbortWords, HighestSpeed) {
-  const std::string words = abort_words(test_profile(), false);
+  const std::string words = abort_commands(test_profile(), false);
   EXPECT_LT(Reached(kCutting, words).took, seconds(5));
   EXPECT_GT(Reached(kCutting, without(words, "!VZ15;")).took, seconds(90));
 }
 
 TEST(AbortWords, SpindleOff) {
-  const std::string words = abort_words(test_profile(), false);
+  const std::string words = abort_commands(test_profile(), false);
   EXPECT_EQ(Reached(kCutting, words).state.rpm, 0);
   EXPECT_GT(Reached(kCutting, without(words, "!MC0;")).state.rpm, 0);
 }

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/abort_bench.h"
 #include "tests/rml1/measured_by.h"
 #include "tests/rml1/random_mill_job.h"
@@ -182,7 +182,7 @@ class Aborts : public testing::TestWithParam<Combination> {
   void expect_only_words(AbortBench& bench, std::size_t before) {
     const std::string words = bench.written().substr(before);
     EXPECT_EQ(bench.sender().state(), jobs::SenderState::aborted);
-    EXPECT_TRUE(words == abort_words(profile_, false) || words == abort_words(profile_, true)) << words;
+    EXPECT_TRUE(words == abort_commands(profile_, false) || words == abort_commands(profile_, true)) << words;
   }
 
   void expect_within_bound(AbortBench& bench, const Moment& moment) {

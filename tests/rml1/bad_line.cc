@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "device/rml1/language/quoted.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/mill.h"
 
 namespace axisgate::rml1 {
@@ -224,7 +224,7 @@ void BadLine::read_record() {
 
 void BadLine::writes(std::string_view bytes) {
   if (mill_.link() != jobs::MachineLink::open) violate("written with the line closed");
-  const bool is_abort = bytes == abort_words(profile_, true) || bytes == abort_words(profile_, false);
+  const bool is_abort = bytes == abort_commands(profile_, true) || bytes == abort_commands(profile_, false);
   note(fmt::format("{} written", is_abort ? "the abort" : in_quotes(bytes)));
   if (!is_abort) return writes_of_job(bytes);
   ++abort_writes_;

@@ -73,7 +73,7 @@ class BadLine : private jobs::MachineEvents {
   void link_changed(jobs::MachineLink link, std::string_view, TimePoint) override;
   void job_changed(const jobs::Job& job, std::string_view by, std::string_view why, TimePoint) override;
   void rank_changed(const jobs::Job&) override {}
-  void surface_set(std::uint64_t) override {}
+  void z0_sent(std::uint64_t) override {}
   void internal_error(std::string_view what, TimePoint) override { violate(std::string(what)); }
   void sender_changed(const jobs::RunningJob& running, TimePoint) override;
   void written(std::string_view, jobs::JobNumber) override {}

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::string bytes_of(const jobs::HandAct& act, const Profile& profile = test_profile()) {
-  const Result<HandWords> words = words_of(act, profile, jobs::SendSettings().slack);
+  const Result<HandCommands> words = words_of(act, profile, jobs::SendSettings().slack);
   return words ? words->bytes : std::string(name(words.error().reason));
 }
 
@@ -62,15 +62,15 @@ TEST(ByHand, AStepIsAsFastAsTheMillCan) {
 
 // After PR, "the specified value referenced from the present Z-axis coordinate" (3-3 !ZO).
 TEST(ByHand, TheOriginIsSetHereOrAtAMachineCoordinate) {
-  EXPECT_EQ(bytes_of(jobs::SetSurface{}), ";^PR;!ZO0;^PA;");
-  EXPECT_EQ(bytes_of(jobs::SetSurface{-800}), ";^PA;!ZO-800;");
-  EXPECT_EQ(bytes_of(jobs::SetSurface{-6050}), ";^PA;!ZO-6050;") << "60.5 mm below the top";
-  EXPECT_EQ(bytes_of(jobs::SetSurface{-6051}), "OUT_OF_RANGE");
-  EXPECT_EQ(bytes_of(jobs::SetSurface{1}), "OUT_OF_RANGE") << "above the top";
+  EXPECT_EQ(bytes_of(jobs::SetZ0{}), ";^PR;!ZO0;^PA;");
+  EXPECT_EQ(bytes_of(jobs::SetZ0{-800}), ";^PA;!ZO-800;");
+  EXPECT_EQ(bytes_of(jobs::SetZ0{-6050}), ";^PA;!ZO-6050;") << "60.5 mm below the top";
+  EXPECT_EQ(bytes_of(jobs::SetZ0{-6051}), "OUT_OF_RANGE");
+  EXPECT_EQ(bytes_of(jobs::SetZ0{1}), "OUT_OF_RANGE") << "above the top";
   Profile downward = test_profile();
   downward.up = -1;
-  EXPECT_EQ(bytes_of(jobs::SetSurface{6050}, downward), ";^PA;!ZO6050;");
-  EXPECT_EQ(bytes_of(jobs::SetSurface{-1}, downward), "OUT_OF_RANGE");
+  EXPECT_EQ(bytes_of(jobs::SetZ0{6050}, downward), ";^PA;!ZO6050;");
+  EXPECT_EQ(bytes_of(jobs::SetZ0{-1}, downward), "OUT_OF_RANGE");
 }
 
 // "Rotation is performed at the time of a command that involves movement" (5-2).
@@ -101,7 +101,7 @@ class ByHandAtTheMill : public testing::Test, protected jobs::MachineEvents {
     said_ = std::string(name(job.state)) + ": " + std::string(why);
   }
   void rank_changed(const jobs::Job&) override {}
-  void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
+  void z0_sent(std::uint64_t z0_count) override { z0_count_ = z0_count; }
   void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const jobs::RunningJob&, TimePoint) override {}
   void written(std::string_view, jobs::JobNumber) override {}
@@ -127,13 +127,13 @@ class ByHandAtTheMill : public testing::Test, protected jobs::MachineEvents {
   TimePoint now_{1000s};
   jobs::MachineSettings settings_;
   std::string said_;
-  std::uint64_t surfaces_ = 0;
+  std::uint64_t z0_count_ = 0;
   FakePermission permission_;
   MillController mill_{profile_, settings_, line_, *this, permission_};
 };
 
 TEST_F(ByHandAtTheMill, AConfirmationIsVoidAfterEachOfThem) {
-  for (const jobs::HandAct& act : {jobs::HandAct(jobs::JogStep{1, 0, 0, {}}), jobs::HandAct(jobs::SetSurface{}),
+  for (const jobs::HandAct& act : {jobs::HandAct(jobs::JogStep{1, 0, 0, {}}), jobs::HandAct(jobs::SetZ0{}),
                                    jobs::HandAct(jobs::TurnSpindle{}), jobs::HandAct(jobs::RaiseTool{})}) {
     MillController mill(profile_, settings_, line_, *this, permission_);
     mill.link_up(now_);
@@ -174,10 +174,10 @@ TEST_F(ByHandAtTheMill, NothingWaitsInTheHostForALaterTime) {
   EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::axis_busy) << "the mill holds its host back";
   EXPECT_THAT(line_.writes, IsEmpty());
   line_.busy = false;
-  ASSERT_EQ(reason(jobs::SetSurface{}), Reason::unspecified);
-  EXPECT_EQ(reason(jobs::SetSurface{}), Reason::axis_busy) << "the first one has not left the host";
+  ASSERT_EQ(reason(jobs::SetZ0{}), Reason::unspecified);
+  EXPECT_EQ(reason(jobs::SetZ0{}), Reason::axis_busy) << "the first one has not left the host";
   line_.run_to(now_ += 1s);
-  EXPECT_EQ(reason(jobs::SetSurface{}), Reason::unspecified);
+  EXPECT_EQ(reason(jobs::SetZ0{}), Reason::unspecified);
 }
 
 TEST_F(ByHandAtTheMill, NotWhileAJobRunsNorByThoseWithoutARightNorThroughAClosedLine) {
@@ -204,19 +204,19 @@ TEST_F(ByHandAtTheMill, AfterAnAbortNothingThatNeedsTheToolAtRest) {
   line_.run_to(now_ += 6s);
   mill_.advance(now_);
   EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::axis_busy) << "the tool may still rise";
-  EXPECT_EQ(reason(jobs::SetSurface{}), Reason::axis_busy);
-  EXPECT_EQ(reason(jobs::SetSurface{-800}), Reason::unspecified) << "it does not matter where the tool is";
+  EXPECT_EQ(reason(jobs::SetZ0{}), Reason::axis_busy);
+  EXPECT_EQ(reason(jobs::SetZ0{-800}), Reason::unspecified) << "it does not matter where the tool is";
   line_.run_to(now_ += 60s);
   EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::unspecified);
 }
 
 TEST_F(ByHandAtTheMill, CountsHowOftenZ0IsSent) {
-  EXPECT_EQ(reason(jobs::SetSurface{-800}), Reason::unspecified);
+  EXPECT_EQ(reason(jobs::SetZ0{-800}), Reason::unspecified);
   EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::axis_busy) << "the line has not taken it";
   line_.run_to(now_ += 1s);
   EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::unspecified);
-  EXPECT_EQ(mill_.surfaces(), 1u);
-  EXPECT_EQ(surfaces_, 1u) << "is kept";
+  EXPECT_EQ(mill_.z0_count(), 1u);
+  EXPECT_EQ(z0_count_, 1u) << "is kept";
 }
 
 }  // namespace

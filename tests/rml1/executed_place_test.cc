@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/mill_controller_fixture.h"
 
 namespace axisgate::rml1::executed_place_test {

@@ -69,7 +69,7 @@ class MillControllerTest : public testing::Test, protected jobs::MachineEvents {
     by_[job.state] = by;
   }
   void rank_changed(const jobs::Job& job) override { ranks_[job.number] = job.rank; }
-  void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
+  void z0_sent(std::uint64_t z0_count) override { z0_count_ = z0_count; }
   void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const jobs::RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
@@ -90,7 +90,7 @@ class MillControllerTest : public testing::Test, protected jobs::MachineEvents {
   std::map<jobs::JobNumber, std::int64_t> ranks_;  // ranks that were stored
   std::vector<std::string> said_;
   std::map<jobs::JobState, std::string> by_;
-  std::uint64_t noted_ = 0, surfaces_ = 0;
+  std::uint64_t noted_ = 0, z0_count_ = 0;
   std::size_t written_before_note_ = 0;
   int aborts_requested_ = 0;
   FakePermission permission_;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/mill_controller_fixture.h"
 
 namespace axisgate::rml1 {
@@ -150,7 +150,7 @@ TEST_F(MillControllerTest, AnAbortWithoutAJobLeavesAlsoWhereTheMillHoldsTheLine)
   EXPECT_TRUE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_FALSE(mill_.is_idle());
   run_for(1s);
-  EXPECT_EQ(line_.received, abort_words(profile_, true));
+  EXPECT_EQ(line_.received, abort_commands(profile_, true));
   EXPECT_TRUE(mill_.is_idle());
   EXPECT_FALSE(line_.ignores);
 }
@@ -168,7 +168,7 @@ TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
   EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true)));
 }
 
 TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
@@ -176,7 +176,7 @@ TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
   EXPECT_FALSE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_THAT(line_.writes, IsEmpty());
   mill_.link_up(now_);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "when the line is back";
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true))) << "when the line is back";
   mill_.abort({.who = "unix bert"}, now_);
   EXPECT_THAT(line_.writes, SizeIs(2));
   EXPECT_EQ(aborts_requested_, 2) << "what was sent when the line was back is no request";
@@ -242,7 +242,7 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
   line_.writes.clear();
   mill_.link_up(now_);
   run_for(60s);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "the mill is stopped once, nothing else";
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true))) << "the mill is stopped once, nothing else";
   EXPECT_EQ(reason(mill_.start(1, prepared(200), {.who = "unix anna"}, now_)), Reason::not_allowed);
   EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_));
@@ -257,7 +257,7 @@ TEST_F(MillControllerTest, AnAbortThatWaitedWhenTheDaemonEndedIsSent) {
   after.inherit_abort();
   line_.writes.clear();
   after.link_up(now_);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true)));
   EXPECT_TRUE(after.abort_waits()) << "it has not left this host";
   line_.run_to(now_ + 1s);
   after.advance(now_ + 1s);
@@ -299,7 +299,7 @@ TEST_F(MillControllerTest, TheAbortOfAJobThatTheLineMayHaveLostIsSentAgain) {
   mill_.link_down(now_, "unplugged");
   line_.writes.clear();
   mill_.link_up(now_);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true)));
 }
 
 TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
@@ -312,7 +312,7 @@ TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
                  .written = jobs::WrittenRange{0, 900}});
   EXPECT_EQ(after.jobs().front().state, paused_unknown);
   after.link_up(now_);
-  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true)));
   line_.run_to(now_ += 1s);
   after.advance(now_);
   after.link_down(now_ += 1s, "unplugged");
@@ -335,7 +335,7 @@ TEST_F(MillControllerTest, AtLossLeaveSendsAnAbortThatTheRunBeforeCouldNotSend) 
   other.inherit_abort();
   other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
   other.link_up(now_);
-  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_commands(profile_, true));
 }
 
 TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device/rml1/mill/mill_controller.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/fake_permission.h"
 #include "tests/rml1/mill.h"
@@ -93,7 +93,7 @@ class MillPartsTest : public testing::Test, protected jobs::MachineEvents {
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
   }
   void rank_changed(const jobs::Job&) override {}
-  void surface_set(std::uint64_t) override {}
+  void z0_sent(std::uint64_t) override {}
   void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const jobs::RunningJob&, TimePoint) override {}
   void written(std::string_view, jobs::JobNumber) override {}
@@ -197,7 +197,7 @@ TEST_F(MillPartsTest, AnAbortInAToolChangeIsSentAndTheJobStays) {
   ASSERT_TRUE(confirm(1));
   take_written();
   EXPECT_TRUE(mill_.abort({.who = "unix carl"}, now_));
-  EXPECT_EQ(take_written(), abort_words(profile_, true));
+  EXPECT_EQ(take_written(), abort_commands(profile_, true));
   EXPECT_EQ(job(1).state, tool_change);
   EXPECT_EQ(reason(start(1, 1)), Reason::not_allowed) << "its confirmation is void";
 }
@@ -323,7 +323,7 @@ TEST_F(MillLeavesTest, NoZ0IsLeftWhereAPersonHasSetIt) {
   after.inherit_left(job_that_leaves(6, {.surface = true, .revolutions = true}));
   after.inherit(job_that_leaves(7, {}));
   after.link_up(now_);
-  ASSERT_TRUE(after.operate(jobs::SetSurface{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(after.operate(jobs::SetZ0{-800}, {.who = "unix anna"}, now_));
   EXPECT_THAT(after.jobs().front().setup.left, ElementsAre("job 6 (part.rml) sets the spindle speed (!RC)"));
 }
 
@@ -331,7 +331,7 @@ TEST_F(MillLeavesTest, AJobThatContinuesAWorkpieceNeedsItsZ0) {
   jobs::Job next = job_that_leaves(2, {});
   next.continues = 1;
   mill_.add(next, now_);
-  ASSERT_TRUE(mill_.operate(jobs::SetSurface{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(mill_.operate(jobs::SetZ0{-800}, {.who = "unix anna"}, now_));
   const Result<void> confirmed = confirm(2);
   ASSERT_FALSE(confirmed);
   EXPECT_EQ(confirmed.error().reason, Reason::stale_setpoint);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device/jobs/job_queue.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/mill_controller_fixture.h"
 #include "tests/unit/core/reported.h"
 #include "tests/unit/core/transition_table.h"
@@ -167,7 +167,7 @@ TEST_F(InternalErrorAtAMill, AbortsTheJobAndOpensTheLineAgain) {
   EXPECT_EQ(written(), "") << "it would be lost with the line";
   EXPECT_TRUE(mill_.abort_waits());
   mill_.link_up(now_);
-  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_commands(profile_, true));
   run_for(1s);
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_)) << "a person has looked";
 }
@@ -179,7 +179,7 @@ TEST_F(InternalErrorAtAMill, WithTheLineClosedTheAbortWaits) {
   EXPECT_EQ(errors_.size(), 1u);
   EXPECT_EQ(line_.reopened, 1) << "once, for the loss";
   mill_.link_up(now_);
-  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_commands(profile_, true));
 }
 
 TEST_F(InternalErrorAtAMill, WithoutAJobTheMillIsAbortedToo) {
@@ -187,7 +187,7 @@ TEST_F(InternalErrorAtAMill, WithoutAJobTheMillIsAbortedToo) {
   EXPECT_FALSE(mill_.is_idle());
   mill_.advance(now_);
   mill_.link_up(now_);
-  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_commands(profile_, true));
   EXPECT_EQ(reason(mill_.operate(jobs::JogStep{.x_mm = 1}, {.who = "unix anna"}, now_).map([](Duration) {})),
             Reason::axis_busy)
       << "the tool may still rise";

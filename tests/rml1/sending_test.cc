@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "device/rml1/sending/commands.h"
 #include "device/rml1/sending/sender.h"
-#include "device/rml1/sending/words.h"
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/mill.h"
 #include "tests/rml1/pieces.h"
@@ -25,8 +25,8 @@ using enum jobs::SenderState;
 
 // Typed by hand from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
 TEST(Words, OfAnAbort) {
-  EXPECT_EQ(abort_words(test_profile(), false), "\x1B.K\x1B.K^PA;!VZ15;!ZM0;!MC0;");
-  EXPECT_EQ(abort_words(test_profile(), true), "\x1B.K\x1B.K!MC0;^PA;!VZ15;!ZM0;!MC0;");
+  EXPECT_EQ(abort_commands(test_profile(), false), "\x1B.K\x1B.K^PA;!VZ15;!ZM0;!MC0;");
+  EXPECT_EQ(abort_commands(test_profile(), true), "\x1B.K\x1B.K!MC0;^PA;!VZ15;!ZM0;!MC0;");
 }
 
 TEST(Words, AroundAJob) {
@@ -137,7 +137,7 @@ TEST_F(SenderTest, AfterAnAbortNothingOfTheJobIsWritten) {
   sender_->abort(now_);
   run_for(std::chrono::seconds(1));
   EXPECT_EQ(sender_->state(), aborted);
-  EXPECT_EQ(written(), abort_words(profile_, true)) << "the job has forbidden the spindle";
+  EXPECT_EQ(written(), abort_commands(profile_, true)) << "the job has forbidden the spindle";
 }
 
 TEST_F(SenderTest, ATurningSpindleIsStoppedAfterTheRaise) {
@@ -145,7 +145,7 @@ TEST_F(SenderTest, ATurningSpindleIsStoppedAfterTheRaise) {
   run_for(std::chrono::seconds(8));
   line_.writes.clear();
   sender_->abort(now_);
-  EXPECT_EQ(written(), abort_words(profile_, false));
+  EXPECT_EQ(written(), abort_commands(profile_, false));
 }
 
 // The spindle does not turn before the first move.
@@ -164,7 +164,7 @@ TEST_F(SenderTest, OneThatRestsInADwellIsStoppedBefore) {
   ASSERT_EQ(progress().written, job_.size() - 6) << "all but the last move";
   line_.writes.clear();
   sender_->abort(now_);
-  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_commands(profile_, true));
 }
 
 TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
@@ -178,7 +178,7 @@ TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
   run_for(milliseconds(100));
   EXPECT_EQ(sender_->state(), aborted);
   EXPECT_FALSE(line_.ignores) << "as it was before";
-  EXPECT_THAT(line_.received, testing::EndsWith(abort_words(profile_, true)));
+  EXPECT_THAT(line_.received, testing::EndsWith(abort_commands(profile_, true)));
 }
 
 // CTS became low before the last command had left the host.

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 #include "tests/rml1/mill.h"
 
 namespace axisgate::rml1 {

@@ -123,7 +123,7 @@ class Retries {
   void on_news(const stage::Event& event);
   void note(const stage::MotionChanged& change);
   void note(const stage::BytesWritten& written);
-  void check_way(const stage::Motion& motion, const MotionFacts& facts);
+  void check_approach(const stage::Motion& motion, const MotionFacts& facts);
   void check_answer(const Wanted& wanted, const std::string& answer);
   void check_journal();
   void check_row(const server::journal::StoredEntry& row, std::map<stage::MotionId, int>& last_kinds);

@@ -95,12 +95,12 @@ void Retries::note(const MotionChanged& change) {
   facts.outcome = motion.state;
   facts.ended_at = places();
   counts_.succeeded += motion.state == MotionState::succeeded ? 1 : 0;
-  check_way(motion, facts);
+  check_approach(motion, facts);
 }
 
 // Checks that a successful motion went the whole distance from the simulator's positions when its first line was
 // written.
-void Retries::check_way(const Motion& motion, const MotionFacts& facts) {
+void Retries::check_approach(const Motion& motion, const MotionFacts& facts) {
   if (motion.state != MotionState::succeeded || !facts.message || world_.wire().damaged_since(TimePoint{})) return;
   const Wanted& wanted = facts.message->wanted;
   if (wanted.kind == RequestKind::jog) return;

@@ -59,7 +59,7 @@ int mill_jog(const Session& session) {
 
 int mill_origin(const Session& session) {
   v1::OperateMillRequest request;
-  v1::SetSurface& surface = *request.mutable_surface();
+  v1::SetZ0& surface = *request.mutable_surface();
   surface.set_origin(session.options.job.origin);
   if (session.options.job.z) surface.set_z(*session.options.job.z);
   return operate(session, request, "Z0");

@@ -9,7 +9,7 @@
 
 #include "device/rml1/check/check.h"
 #include "device/rml1/mill/prefix.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -26,28 +26,29 @@ std::string decimal(double value) {
 // tool travels at the top, whatever the height of Z0 is.
 constexpr std::string_view kTravelAtTheTop = "!PZ0,8388607;";
 
-tl::unexpected<Problem> no_way(const Prefix& prefix, std::string_view why) {
+tl::unexpected<Problem> refuse_approach(const Prefix& prefix, std::string_view why) {
   const jobs::Place& at = prefix.next()->begins;
   return fail(Reason::invalid_request,
               fmt::format("the job cannot continue at line {}, column {}: {}", at.line, at.column, why),
               "choose an earlier line, or send what is left as a job of its own");
 }
 
-Result<void> check_way(const Prefix& prefix) {
+Result<void> check_approach(const Prefix& prefix) {
   const Machine& machine = prefix.machine();
   const jobs::Point &tool = machine.tool(), &commanded = machine.commanded();
   if (prefix.leaves().surface)
-    return no_way(prefix, "before it the job sets Z0 (!ZO), and where that lies now is not known");
+    return refuse_approach(prefix, "before it the job sets Z0 (!ZO), and where that lies now is not known");
   if (prefix.leaves().rotation)
-    return no_way(prefix, "before it the job turns the rotary axis, whose angle is not known");
+    return refuse_approach(prefix, "before it the job turns the rotary axis, whose angle is not known");
   if (std::round(commanded.x) != tool.x || std::round(commanded.y) != tool.y) {
-    return no_way(prefix, "there the job has left the work area");
+    return refuse_approach(prefix, "there the job has left the work area");
   }
   if (machine.tool_lowered() && commanded.z > machine.z1()) {
-    return no_way(prefix, "the next command without PU or PD would lower the tool to Z1, and there it is above that");
+    return refuse_approach(prefix,
+                           "the next command without PU or PD would lower the tool to Z1, and there it is above that");
   }
   if (prefix.height() == Prefix::Height::unknown && commanded.z != machine.z1() && commanded.z != machine.z2()) {
-    return no_way(
+    return refuse_approach(
         prefix, "the height there counts from the top, and without an origin it is not known where Z0 lies below that");
   }
   return {};
@@ -71,7 +72,7 @@ std::string spindle(const Machine& machine) { return machine.spindle_permitted()
 
 // Returns the commands that lower the tool straight down from above the place. PD and PU also set whether later PA and
 // PR commands move with the tool down.
-std::string way_down(const Prefix& prefix) {
+std::string descent(const Prefix& prefix) {
   const Machine& machine = prefix.machine();
   const jobs::Point& there = machine.commanded();
   const bool lowered = machine.tool_lowered();
@@ -95,7 +96,7 @@ std::string words_to(const Prefix& prefix, const Profile& profile) {
   std::string words = "!MC0;^PA;" + raise(profile) + std::string(kTravelAtTheTop);
   // !ZM sets the commanded Z to the top, because PU has set it to the Z2 of kTravelAtTheTop.
   words += fmt::format("^PU{},{};!ZM{};", decimal(there.x), decimal(there.y), decimal(profile.top));
-  words += modes(prefix) + spindle(machine) + way_down(prefix);
+  words += modes(prefix) + spindle(machine) + descent(prefix);
   if (prefix.modes().dwell_ms) words += fmt::format("!DW{};", decimal(*prefix.modes().dwell_ms));
   return words + (machine.relative() ? "^PR;" : "");
 }
@@ -119,7 +120,7 @@ Result<Approach> approach_to(std::string_view body, std::uint64_t from, const Pr
                 "choose an earlier line");
   }
   if (!prefix.has_effect()) return Approach{};
-  if (const Result<void> way = check_way(prefix); !way) return tl::unexpected(way.error());
+  if (const Result<void> way = check_approach(prefix); !way) return tl::unexpected(way.error());
   return Approach{prefix.next()->begins, words_to(prefix, profile) + before_next(prefix)};
 }
 

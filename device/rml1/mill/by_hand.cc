@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -32,7 +32,7 @@ Result<void> check_length(const jobs::JogStep& step) {
 }
 
 // !MC0 comes first, because !ZZ would start a permitted spindle (guideline 5-2).
-Result<HandWords> step_words(const jobs::JogStep& step, const Profile& profile, double slack) {
+Result<HandCommands> step_words(const jobs::JogStep& step, const Profile& profile, double slack) {
   if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
   const Result<double> speed = step_speed(step, profile);
   if (!speed) return tl::unexpected(speed.error());
@@ -43,17 +43,17 @@ Result<HandWords> step_words(const jobs::JogStep& step, const Profile& profile, 
                 fmt::format("the {} moves by {:g} mm", profile.name, profile.step_mm));
   }
   const double way = std::hypot(step.x_mm, step.y_mm, step.z_mm);
-  return HandWords{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
-                   longest_way(way, *speed, profile, slack)};
+  return HandCommands{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
+                      longest_move(way, *speed, profile, slack)};
 }
 
 // After PR, the parameter 0 of !ZO is the present height. After PA, the parameter is a machine coordinate (guideline
 // 3-3 !ZO).
-Result<HandWords> surface_words(const jobs::SetSurface& surface, const Profile& profile) {
-  if (!surface.at) return HandWords{";^PR;!ZO0;^PA;"};
+Result<HandCommands> surface_words(const jobs::SetZ0& surface, const Profile& profile) {
+  if (!surface.at) return HandCommands{";^PR;!ZO0;^PA;"};
   const double travel = std::round(profile.steps(profile.z_mm));
   const double below_top = profile.up * (profile.top - static_cast<double>(*surface.at));
-  if (below_top >= 0 && below_top <= travel) return HandWords{fmt::format(";^PA;!ZO{};", *surface.at)};
+  if (below_top >= 0 && below_top <= travel) return HandCommands{fmt::format(";^PA;!ZO{};", *surface.at)};
   const double bottom = profile.top - profile.up * travel;
   return fail(Reason::out_of_range, fmt::format("{} is outside of Z's travel", *surface.at),
               fmt::format("use a machine coordinate from {:g} to {:g}", std::min(profile.top, bottom),
@@ -62,19 +62,20 @@ Result<HandWords> surface_words(const jobs::SetSurface& surface, const Profile& 
 
 // "Rotation is performed at the time of a command that involves movement", if it is not prohibited (guideline 5-2): so
 // !ZZ0,0,0 follows !MC1.
-Result<HandWords> spindle_words(const jobs::TurnSpindle& spindle, const Profile& profile, double slack) {
-  if (!spindle.on) return HandWords{";!MC0;"};
+Result<HandCommands> spindle_words(const jobs::TurnSpindle& spindle, const Profile& profile, double slack) {
+  if (!spindle.on) return HandCommands{";!MC0;"};
   const std::chrono::duration<double> spin_up(slack * profile.spindle.spin_up_s);
-  return HandWords{";!MC1;^PR;!ZZ0,0,0;^PA;", std::chrono::duration_cast<Duration>(spin_up)};
+  return HandCommands{";!MC1;^PR;!ZZ0,0,0;^PA;", std::chrono::duration_cast<Duration>(spin_up)};
 }
 
 }  // namespace
 
-Result<HandWords> words_of(const jobs::HandAct& act, const Profile& profile, double slack) {
+Result<HandCommands> words_of(const jobs::HandAct& act, const Profile& profile, double slack) {
   if (const auto* step = std::get_if<jobs::JogStep>(&act)) return step_words(*step, profile, slack);
-  if (const auto* surface = std::get_if<jobs::SetSurface>(&act)) return surface_words(*surface, profile);
+  if (const auto* surface = std::get_if<jobs::SetZ0>(&act)) return surface_words(*surface, profile);
   if (const auto* spindle = std::get_if<jobs::TurnSpindle>(&act)) return spindle_words(*spindle, profile, slack);
-  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile, slack)};
+  return HandCommands{";!MC0;^PA;" + raise(profile),
+                      longest_move(profile.z_mm, profile.speed.z_maximum, profile, slack)};
 }
 
 }  // namespace axisgate::rml1

@@ -11,7 +11,7 @@
 
 namespace axisgate::rml1 {
 
-struct HandWords {
+struct HandCommands {
   std::string bytes;
   Duration longest{};  // longest time to execute the bytes, with the slack of words_of()
 };
@@ -19,7 +19,7 @@ struct HandWords {
 // Returns the commands for an act. `slack`: factor by which a mill may be slower than the slowest mill of its profile
 // (sending/README.md, "Streaming"). Fails with out_of_range if a step is too long or too short, or if a height is
 // outside of Z's travel. Fails with too_fast if the profile does not allow the speed of a step.
-Result<HandWords> words_of(const jobs::HandAct& act, const Profile& profile, double slack);
+Result<HandCommands> words_of(const jobs::HandAct& act, const Profile& profile, double slack);
 
 // Longest step along an axis, and longest step down. If such a short step hits an obstacle, the damage is small and the
 // person sees it.

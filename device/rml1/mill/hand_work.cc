@@ -6,7 +6,7 @@
 #include <chrono>
 #include <variant>
 
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -50,7 +50,7 @@ Result<void> HandWork::check(const jobs::HandAct& act, TimePoint now) const {
   if (line_.held()) {
     return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
   }
-  const auto* surface = std::get_if<jobs::SetSurface>(&act);
+  const auto* surface = std::get_if<jobs::SetZ0>(&act);
   const bool is_step = std::holds_alternative<jobs::JogStep>(act);
   if (is_step || (surface != nullptr && !surface->at)) {
     if (const Result<void> risen = check_risen(now); !risen) return risen;
@@ -58,7 +58,7 @@ Result<void> HandWork::check(const jobs::HandAct& act, TimePoint now) const {
   return is_step ? check_still(now) : Result<void>();
 }
 
-Duration HandWork::write(const HandWords& words, TimePoint now) {
+Duration HandWork::write(const HandCommands& words, TimePoint now) {
   line_.write(words.bytes);
   done_at_ = std::max(done_at_, now) + words.longest;
   return done_at_ - now;
@@ -66,7 +66,7 @@ Duration HandWork::write(const HandWords& words, TimePoint now) {
 
 void HandWork::abort_requested(TimePoint now) {
   done_at_ = now;
-  risen_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, slack_);
+  risen_at_ = now + longest_move(profile_.z_mm, profile_.speed.z_maximum, profile_, slack_);
 }
 
 }  // namespace axisgate::rml1

@@ -19,14 +19,14 @@ class HandWork {
       : profile_(profile), slack_(slack), line_(line), abort_(abort) {}
 
   // Returns the commands for an act. Fails as words_of() does.
-  Result<HandWords> words(const jobs::HandAct& act) const { return words_of(act, profile_, slack_); }
+  Result<HandCommands> words(const jobs::HandAct& act) const { return words_of(act, profile_, slack_); }
   // Fails with axis_busy if the mill takes no bytes. A step also fails if the mill may still execute an earlier act. A
   // step, and Z0 at the tool's height, also fail if the tool may still rise after an abort.
   Result<void> check(const jobs::HandAct& act, TimePoint now) const;
   // Fails with axis_busy if the mill has not taken all bytes sent before, or may still execute an act by hand.
   Result<void> check_idle(TimePoint now) const;
   // Writes the commands. Returns the longest time until the mill has executed this act and all acts before it.
-  Duration write(const HandWords& words, TimePoint now);
+  Duration write(const HandCommands& words, TimePoint now);
   // Notes that an abort ends all acts by hand, and that the tool then rises.
   void abort_requested(TimePoint now);
 

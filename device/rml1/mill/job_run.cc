@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "device/jobs/guard.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 // Returns the longest time until a raised tool is back in the place where it was raised: the travel at the top, the
 // descent, and the spin-up of the spindle.
 Duration longest_return(const Profile& profile, double slack) {
-  const Duration across = longest_way(std::hypot(profile.x_mm, profile.y_mm), profile.speed.travel, profile, slack);
-  const Duration down = longest_way(profile.z_mm, profile.speed.z_minimum, profile, slack);
+  const Duration across = longest_move(std::hypot(profile.x_mm, profile.y_mm), profile.speed.travel, profile, slack);
+  const Duration down = longest_move(profile.z_mm, profile.speed.z_minimum, profile, slack);
   return across + down + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(profile.spindle.spin_up_s));
 }
 

@@ -101,7 +101,7 @@ Result<void> MillController::start(jobs::JobNumber number, std::shared_ptr<const
   if (!can) return can;
   if (waits_to_begin(job)) left_.job_begins(job);
   if (job.leaves.surface) count_surface();
-  job.surfaces = left_.surfaces();
+  job.z0_count = left_.z0_count();
   run_.start(job, std::move(prepared), by, now);
   return {};
 }
@@ -168,10 +168,10 @@ Result<void> MillController::done(jobs::JobNumber job, std::string_view by, Time
   return queue_.request(job, jobs::JobEvent::done, by, now);
 }
 
-void MillController::count_surface() { events_.surface_set(left_.count_surface()); }
+void MillController::count_surface() { events_.z0_sent(left_.count_surface()); }
 
 Result<Duration> MillController::operate(const jobs::HandAct& act, const use::RequestContext& by, TimePoint now) {
-  const Result<HandWords> words = hand_.words(act);
+  const Result<HandCommands> words = hand_.words(act);
   if (!words) return tl::unexpected(words.error());
   const Result<void> can = check_no_job_runs("wait until it has ended")
                                .and_then([&] { return check_open(); })
@@ -180,7 +180,7 @@ Result<Duration> MillController::operate(const jobs::HandAct& act, const use::Re
   if (!can) return tl::unexpected(can.error());
   setup_changed(fmt::format("{} had the mill {}", by.who, text_of(act)), now);
   const Duration done_in = hand_.write(*words, now);
-  if (std::holds_alternative<jobs::SetSurface>(act)) {
+  if (std::holds_alternative<jobs::SetZ0>(act)) {
     count_surface();
     left_.surface_set_by_hand();
     queue_.show_left();

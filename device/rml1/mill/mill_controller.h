@@ -42,7 +42,7 @@ class MillController : public jobs::Machine, private Violations {
   void inherit(jobs::Job job) override;
   void inherit_left(const jobs::Job& last) override;
   void inherit_abort() override { abort_.postpone(); }
-  void inherit_surfaces(std::uint64_t surfaces) override { left_.inherit_surfaces(surfaces); }
+  void inherit_z0_count(std::uint64_t z0_count) override { left_.inherit_z0_count(z0_count); }
 
   void add(jobs::Job job, TimePoint now) override { queue_.add(std::move(job), now); }
   Result<void> confirm(jobs::JobNumber job, const jobs::JobSetup& seen, std::string by, TimePoint now) override;
@@ -72,7 +72,7 @@ class MillController : public jobs::Machine, private Violations {
   bool abort_waits() const override { return abort_.waits() || !internal_error_.empty(); }
   jobs::MachineLink link() const override { return link_; }
   const std::optional<jobs::MeasuredPace>& measured_pace() const override { return run_.measured_pace(); }
-  std::uint64_t surfaces() const override { return left_.surfaces(); }
+  std::uint64_t z0_count() const override { return left_.z0_count(); }
   // Voids the confirmation, if there is one. `why`: reason, for people.
   void setup_changed(std::string_view why, TimePoint now) { confirmations_.make_void(why, now); }
   // Receives reports of events that the table of a state machine does not allow. After such an event, the mill is

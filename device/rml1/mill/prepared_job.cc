@@ -6,7 +6,7 @@
 
 #include "device/rml1/language/characters.h"
 #include "device/rml1/language/parser.h"
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {

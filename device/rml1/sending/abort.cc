@@ -4,8 +4,8 @@
 
 #include "device/core/transitions.h"
 #include "device/jobs/guard.h"
+#include "device/rml1/sending/commands.h"
 #include "device/rml1/sending/delivery.h"
-#include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -42,7 +42,7 @@ void Abort::change(AbortEvent event) {
 }
 
 void Abort::write(bool rests, TimePoint now) {
-  line_.write(abort_words(profile_, rests));
+  line_.write(abort_commands(profile_, rests));
   change(AbortEvent::written);
   written_ = now;
 }

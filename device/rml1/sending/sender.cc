@@ -6,9 +6,9 @@
 
 #include "device/core/transitions.h"
 #include "device/jobs/guard.h"
+#include "device/rml1/sending/commands.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/delivery.h"
-#include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -82,7 +82,7 @@ void Sender::resume(TimePoint now) {
 
 void Sender::raise(TimePoint now) {
   advance(now);
-  if (request(SendEvent::raise)) line_.write(lift_words(profile_, rests_after_written()));
+  if (request(SendEvent::raise)) line_.write(raise_commands(profile_, rests_after_written()));
 }
 
 // Reports whether the spindle is stationary when the mill has executed all written bytes.
@@ -103,7 +103,7 @@ void Sender::abort(TimePoint now) {
 }
 
 bool Sender::abort_may_be_dropped() const {
-  return !settings_.flow_control && cutter_.begin() + abort_words(profile_, true).size() > settings_.buffer;
+  return !settings_.flow_control && cutter_.begin() + abort_commands(profile_, true).size() > settings_.buffer;
 }
 
 void Sender::advance(TimePoint now) {
@@ -123,7 +123,7 @@ bool Sender::has_raised(TimePoint now) {
     raised_at_.reset();
     return false;
   }
-  if (!raised_at_) raised_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, plan_.slack);
+  if (!raised_at_) raised_at_ = now + longest_move(profile_.z_mm, profile_.speed.z_maximum, profile_, plan_.slack);
   return now >= *raised_at_;
 }
 
@@ -214,14 +214,14 @@ std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   switch (state_) {
     case jobs::SenderState::sending:
       if (is_blocked()) return now + until_next_look();
-      return settings_.streaming == jobs::Streaming::full ? now : look_before(room_at(), now);
+      return settings_.streaming == jobs::Streaming::full ? now : next_check(room_at(), now);
     case jobs::SenderState::aborting:
       return now + kLook;
     case jobs::SenderState::finishing:
-      return is_blocked() ? now + until_next_look() : look_before(slowest_.when(job_.size()), now);
+      return is_blocked() ? now + until_next_look() : next_check(slowest_.when(job_.size()), now);
     case jobs::SenderState::raising:
       if (is_blocked()) return now + until_next_look();
-      return raised_at_ ? *raised_at_ : look_before(slowest_.when(cutter_.begin()), now);
+      return raised_at_ ? *raised_at_ : next_check(slowest_.when(cutter_.begin()), now);
     default:
       return std::nullopt;
   }
@@ -235,7 +235,7 @@ Duration Sender::until_next_look() const {
 
 // Returns `due`, or an earlier time while bytes of the last command may be in a converter: if the line is held, they
 // stay there.
-TimePoint Sender::look_before(TimePoint due, TimePoint now) const {
+TimePoint Sender::next_check(TimePoint due, TimePoint now) const {
   return arrives_ > now ? std::min(due, now + kLook) : due;
 }
 

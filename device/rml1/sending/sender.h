@@ -91,7 +91,7 @@ class Sender {
   bool rests_after_written() const;
   bool is_blocked() const;
   Duration until_next_look() const;
-  TimePoint look_before(TimePoint due, TimePoint now) const;
+  TimePoint next_check(TimePoint due, TimePoint now) const;
   TimePoint room_at() const;
   bool may_rest(TimePoint now);
 

@@ -115,7 +115,7 @@ Result<std::unique_ptr<JobUpload>> JobSending::send(const Call& call, std::strin
     if (!ended) return tl::unexpected(ended.error());
     const Result<void> same = check_same_workpiece(mill, *ended, job.origin, job.stock);
     if (!same) return tl::unexpected(same.error());
-    before = {.continues = ended->number, .cut = ended->number, .surfaces = ended->surfaces};
+    before = {.continues = ended->number, .cut = ended->number, .z0_count = ended->z0_count};
   }
   return begin_upload(RequestKind::send_job, call, *admitted, std::move(job), std::move(before));
 }

@@ -102,13 +102,13 @@ std::string JobUpload::facts(const CheckedJob& checked) const {
                            .streaming = job_.streaming,
                            .stock = job_.stock,
                            .continues = before_.continues,
-                           .surfaces = before_.surfaces.value_or(0),
+                           .z0_count = before_.z0_count.value_or(0),
                            .checked_for = server::checked_for(mill_.config(), job_.origin)});
 }
 
 // Both jobs count heights from the Z0 that was set when the job before began.
-Result<void> JobUpload::check_surface(std::uint64_t surfaces) const {
-  if (!before_.surfaces || *before_.surfaces == surfaces) return {};
+Result<void> JobUpload::check_z0(std::uint64_t z0_count) const {
+  if (!before_.z0_count || *before_.z0_count == z0_count) return {};
   return fail(Reason::stale_setpoint, fmt::format("Z0 was sent to the mill since job {} began", before_.cut),
               "send the job without the one that it continues; if Z0 is still the same surface, accept deep-pass");
 }
@@ -117,13 +117,13 @@ Result<void> JobUpload::check_surface(std::uint64_t surfaces) const {
 void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   const Result<CheckedJob> good = checked();
   if (!good) return answer(tl::unexpected(good.error()));
-  if (before_.surfaces && good->leaves.surface) {
+  if (before_.z0_count && good->leaves.surface) {
     return answer(fail(Reason::invalid_request,
                        "the job sets Z0 itself, so its heights are not those of the job before",
                        "send it without the one that it continues"));
   }
   const auto published = mill_.newest().get().value;
-  if (const Result<void> same = check_surface(published->surfaces); !same) return answer(tl::unexpected(same.error()));
+  if (const Result<void> same = check_z0(published->z0_count); !same) return answer(tl::unexpected(same.error()));
   spooled_->set_facts(facts(*good));
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
@@ -139,7 +139,7 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   pipeline_.act(
       {kind_, call_, Result<Mill*>(&mill_)},
       [this, text = fmt::format("{} {}", api::name(kind_), job.number), answer](const MillTurn& turn) {
-        return check_surface(turn.controller.surfaces()).map([&text] { return text; });
+        return check_z0(turn.controller.z0_count()).map([&text] { return text; });
       },
       [job, answer](const MillTurn& turn, const MutationPtr& mutation) {
         turn.controller.add(job, turn.now);

@@ -48,7 +48,7 @@ struct JobToSend {
 struct JobsBefore {
   jobs::JobNumber continues = 0;            // see jobs::Job::continues
   jobs::JobNumber cut = 0;                  // newest job that cut the workpiece before; 0: none
-  std::optional<std::uint64_t> surfaces{};  // MillController::surfaces() when job `cut` began; nullopt: any
+  std::optional<std::uint64_t> z0_count{};  // MillController::z0_count() when job `cut` began; nullopt: any
   std::vector<std::string> accepted{};      // accepted for the repeated job, in addition to those of JobToSend
   std::optional<jobs::Place> from{};        // start of the rest of the repeated job, in `part`
   std::size_t part = 0;
@@ -73,7 +73,7 @@ class JobUpload {
   void keep(std::string digest, const Answer<CurrentJob>& answer);
   Result<CheckedJob> checked();
   std::string facts(const CheckedJob& checked) const;
-  Result<void> check_surface(std::uint64_t surfaces) const;
+  Result<void> check_z0(std::uint64_t z0_count) const;
 
   const RequestKind kind_;
   Call call_;

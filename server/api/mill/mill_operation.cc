@@ -17,7 +17,7 @@ using HandTurn = TurnOf<Mill>;
 // Returns the act with the height of the named origin.
 Result<jobs::HandAct> act_of(const HandRequest& request, const Mill& mill) {
   if (request.origin.empty()) return request.act;
-  const auto* surface = std::get_if<jobs::SetSurface>(&request.act);
+  const auto* surface = std::get_if<jobs::SetZ0>(&request.act);
   if (surface != nullptr && surface->at) {
     return fail(Reason::invalid_request,
                 fmt::format("Z0 cannot be both at the origin \"{}\" and at z = {}", request.origin, *surface->at),
@@ -29,7 +29,7 @@ Result<jobs::HandAct> act_of(const HandRequest& request, const Mill& mill) {
     return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), request.origin),
                 "`axisctl mill queue` lists them");
   }
-  if (named->z) return jobs::SetSurface{named->z};
+  if (named->z) return jobs::SetZ0{named->z};
   return fail(Reason::invalid_request, fmt::format("the origin {} of {} has no height", named->name, mill.name()),
               "give it one in the configuration: `z`; X and Y are set at the mill's panel");
 }

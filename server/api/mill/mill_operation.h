@@ -14,7 +14,7 @@ namespace axisgate::api {
 
 struct HandRequest {
   jobs::HandAct act;
-  std::string origin{};  // for SetSurface: a configured origin with a height; empty: none is named
+  std::string origin{};  // for SetZ0: a configured origin with a height; empty: none is named
 };
 
 // Thread safe.

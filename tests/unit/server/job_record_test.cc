@@ -104,10 +104,10 @@ TEST_F(JobRecordTest, KeepsThatAnAbortWaits) {
 }
 
 TEST_F(JobRecordTest, KeepsHowOftenZ0WasSent) {
-  EXPECT_EQ(open()->surfaces(), 1'000'000u) << "a first boot";
-  open()->set_surfaces(7);
-  EXPECT_EQ(open()->surfaces(), 7u);
-  EXPECT_GT(open("another boot")->surfaces(), 7u) << "a count may have been lost with the machine";
+  EXPECT_EQ(open()->z0_count(), 1'000'000u) << "a first boot";
+  open()->set_z0_count(7);
+  EXPECT_EQ(open()->z0_count(), 7u);
+  EXPECT_GT(open("another boot")->z0_count(), 7u) << "a count may have been lost with the machine";
 }
 
 TEST_F(JobRecordTest, StatesAreThoseOfTheLastJob) {
@@ -328,9 +328,9 @@ TEST(JobOfTheSpool, KnowsOnWhoseWorkpieceItGoesOn) {
   jobs::Job sent = job();
   EXPECT_EQ(job_of(spooled(sent)).continues, 0u);
   sent.continues = 3;
-  sent.surfaces = 5;
+  sent.z0_count = 5;
   EXPECT_EQ(job_of(spooled(sent)).continues, 3u);
-  EXPECT_EQ(job_of(spooled(sent)).surfaces, 5u);
+  EXPECT_EQ(job_of(spooled(sent)).z0_count, 5u);
 }
 
 TEST(JobOfTheSpool, KnowsHowFarOneThatContinuesWasSent) {

@@ -1,4 +1,4 @@
-#include "device/rml1/sending/words.h"
+#include "device/rml1/sending/commands.h"
 
 #include <fmt/format.h>
 
@@ -19,16 +19,16 @@ std::string epilogue(const Profile& profile, bool turning) {
   return fmt::format(";{}^PA;{}!MC0;^DF;!MC0;", turning ? "" : "!MC0;", raise(profile));
 }
 
-std::string lift_words(const Profile& profile, bool may_rest) {
+std::string raise_commands(const Profile& profile, bool may_rest) {
   return fmt::format("{}^PA;{}!MC0;", may_rest ? "!MC0;" : "", raise(profile));
 }
 
-std::string abort_words(const Profile& profile, bool may_rest) {
-  return "\x1B.K\x1B.K" + lift_words(profile, may_rest);
+std::string abort_commands(const Profile& profile, bool may_rest) {
+  return "\x1B.K\x1B.K" + raise_commands(profile, may_rest);
 }
 
 // The result is at least `slack` times the `slowest` of move_time().
-Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack) {
+Duration longest_move(double mm, double mm_per_s, const Profile& profile, double slack) {
   const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
   return std::chrono::duration_cast<Duration>(
       std::chrono::duration<double>(slack * (1 + profile.acceleration.slower) * seconds));

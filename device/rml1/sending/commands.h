@@ -17,14 +17,14 @@ std::string epilogue(const Profile& profile, bool turning);
 std::string raise(const Profile& profile);
 // Returns the commands of an abort; README.md gives the reason for their order. `may_rest`: true if the spindle may be
 // stationary although it is permitted to turn; !MC0 then precedes the raise, which would start the spindle.
-std::string abort_words(const Profile& profile, bool may_rest);
+std::string abort_commands(const Profile& profile, bool may_rest);
 
 // Returns the commands that raise the tool and then stop the spindle. They must follow complete commands. `may_rest`:
-// as for abort_words().
-std::string lift_words(const Profile& profile, bool may_rest);
+// as for abort_commands().
+std::string raise_commands(const Profile& profile, bool may_rest);
 
 // Returns the longest time of a straight move of `mm` from stop to stop, on a mill that needs `slack` times as long as
 // the slowest mill of the profile.
-Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack);
+Duration longest_move(double mm, double mm_per_s, const Profile& profile, double slack);
 
 }  // namespace axisgate::rml1
