@@ -146,6 +146,12 @@ void Controller::at(TimePoint now, Call call) {
   rooms_->tasks.executor().run();
 }
 
+// Runs a caller's request. From the gateway's end on it is refused instead.
+template <class Answer, class Call>
+void Controller::unless_ending(const Answer& answer, TimePoint now, Call call) {
+  rooms_->ending ? answer(tl::unexpected(*rooms_->ending)) : at(now, std::move(call));
+}
+
 void Controller::link_up(TimePoint now) {
   at(now, [&] { rooms_->line.link_up(now); });
 }
@@ -180,47 +186,37 @@ const Profile& Controller::profile() const { return rooms_->profile; }
 const State& Controller::state() const { return rooms_->store.state(); }
 
 void Controller::refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) {
-  if (rooms_->ending) return done(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->polling.refresh(max_age, context, std::move(done)); });
+  unless_ending(done, now, [&] { rooms_->polling.refresh(max_age, context, std::move(done)); });
 }
 
 void Controller::move(MoveRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->moves.move(std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { rooms_->moves.move(std::move(request), std::move(started)); });
 }
 
 void Controller::scan(ScanRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->scans.scan(std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { rooms_->scans.scan(std::move(request), std::move(started)); });
 }
 
 void Controller::home(HomeRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->homes.home(MotionKind::home, std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { rooms_->homes.home(MotionKind::home, std::move(request), std::move(started)); });
 }
 
 void Controller::return_to_origin(HomeRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->homes.home(MotionKind::return_to_origin, std::move(request), std::move(started)); });
+  unless_ending(started, now,
+                [&] { rooms_->homes.home(MotionKind::return_to_origin, std::move(request), std::move(started)); });
 }
 
 void Controller::run_path(PathRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->paths.run(std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { rooms_->paths.run(std::move(request), std::move(started)); });
 }
 
 void Controller::go_to_position(GoToPositionRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) return started(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->saved.go_to(std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { rooms_->saved.go_to(std::move(request), std::move(started)); });
 }
 
 MotionId Controller::jog(JogRequest request, TimePoint now, OnStarted started) {
-  if (rooms_->ending) {
-    started(tl::unexpected(*rooms_->ending));
-    return 0;
-  }
   MotionId id = 0;
-  at(now, [&] { id = rooms_->jogs.jog(std::move(request), std::move(started)); });
+  unless_ending(started, now, [&] { id = rooms_->jogs.jog(std::move(request), std::move(started)); });
   return id;
 }
 
@@ -276,8 +272,7 @@ void Controller::withdraw_stop(StopId id, const RequestContext& context, TimePoi
 }
 
 void Controller::clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) {
-  if (rooms_->ending) return done(tl::unexpected(*rooms_->ending));
-  at(now, [&] { rooms_->error_clearing.clear(axes, context, std::move(done)); });
+  unless_ending(done, now, [&] { rooms_->error_clearing.clear(axes, context, std::move(done)); });
 }
 
 void Controller::execute(ExecuteRequest request, TimePoint now, OnExecute event) {

@@ -63,6 +63,8 @@ class Controller : public StageController {
 
   template <class Call>
   void at(TimePoint now, Call call);
+  template <class Answer, class Call>
+  void unless_ending(const Answer& answer, TimePoint now, Call call);
 
   std::unique_ptr<Rooms> rooms_;
 };

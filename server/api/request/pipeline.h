@@ -76,25 +76,31 @@ class PipelineOf {
   // Posts the request to the device. There `prepare` computes the operation from the request and the device's state, or
   // refuses it; `check` runs the device's checks, and is the last step of validate_only; `describe` returns the text
   // for the log and the journal; `begin` starts the operation and answers.
-  //   Result<Prepared> prepare(const Turn&), several times
+  //   Result<Prepared> prepare(const Turn&)
   //   Result<void> check(const Turn&, const Prepared&)
   //   std::string describe(const Prepared&)
   //   void begin(const Turn&, Prepared, const Answer<Outcome>&)
-  // The answer to validate_only is an empty Outcome. `repeat` answers a request whose id is known.
+  // The answer to validate_only is an empty Outcome. `repeat` answers a request whose id is known. Between `check` and
+  // `begin` the journal may take time: `begin` must let the controller check the operation again.
   template <class Outcome, class Prepare, class Check, class Describe, class Begin>
   void run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe, Begin begin,
            std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Device, Outcome>()) const;
 
   // Runs a request that changes something and answers by itself. `ready` is called on the strand before the request is
-  // written to the journal, and again afterwards if that took time; it returns the description of the operation, or
-  // refuses it. `begin` starts the operation, and reports its result to the mutation. `refuse` and `repeat` are called
-  // from any thread.
+  // written to the journal; it returns the description of the operation, or refuses it. `still_ready` is called after
+  // that if it took time; without it, `ready` is called again. `begin` starts the operation, and reports its result to
+  // the mutation. `refuse` and `repeat` are called from any thread.
   //   Result<std::string> ready(const Turn&)
+  //   Result<> still_ready(const Turn&)
   //   void begin(const Turn&, const MutationPtr&)
   //   void refuse(const Problem&)
   //   void repeat(Device&, const Result<Known>&)
+  template <class Ready, class StillReady, class Begin, class Refuse, class Again>
+  void act(const Asked& asked, Ready ready, StillReady still_ready, Begin begin, Refuse refuse, Again repeat) const;
   template <class Ready, class Begin, class Refuse, class Again>
-  void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const;
+  void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
+    act(asked, ready, ready, std::move(begin), std::move(refuse), std::move(repeat));
+  }
 
   // Does the same for a request that neither moves nor changes anything on the device: it does not wait for the
   // journal, and validate_only is ignored.
@@ -118,10 +124,9 @@ class PipelineOf {
   static Result<void> check_right(RequestKind kind, const Turn& turn);
   // Reports whether the operation may begin now.
   static Result<void> check_now(RequestKind kind, const Turn& turn);
-  // Returns the result of `ready`. A request that starts a motion first requires that the device is up: plans need data
-  // that only a connected device has, so the problem of the plan would hide that the line is down.
-  template <class Ready>
-  static Result<std::string> ready_if_up(RequestKind kind, const Turn& turn, Ready& ready);
+  // A request that starts a motion requires that the device is up. This is checked first: plans need data that only a
+  // connected device has, so the problem of the plan would hide that the line is down.
+  static Result<void> check_up(RequestKind kind, const Turn& turn);
 
   const Admission& admission_;
   const Mutations& mutations_;
@@ -170,18 +175,17 @@ Result<void> PipelineOf<Device>::check_now(RequestKind kind, const Turn& turn) {
 }
 
 template <class Device>
-template <class Ready>
-Result<std::string> PipelineOf<Device>::ready_if_up(RequestKind kind, const Turn& turn, Ready& ready) {
+Result<void> PipelineOf<Device>::check_up(RequestKind kind, const Turn& turn) {
   if constexpr (std::is_same_v<Device, server::Stage>) {
-    const bool moves = rule_of(kind).deadline == DeadlineRule::motion;
-    if (const auto up = moves ? turn.controller.check_up() : Result<void>(); !up) return tl::unexpected(up.error());
+    if (rule_of(kind).deadline == DeadlineRule::motion) return turn.controller.check_up();
   }
-  return ready(turn);
+  return {};
 }
 
 template <class Device>
-template <class Ready, class Begin, class Refuse, class Again>
-void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
+template <class Ready, class StillReady, class Begin, class Refuse, class Again>
+void PipelineOf<Device>::act(const Asked& asked, Ready ready, StillReady still_ready, Begin begin, Refuse refuse,
+                             Again repeat) const {
   const Result<Identified> identified = identify(asked);
   if (!identified) return refuse(identified.error());
   Device& device = *identified->device;
@@ -200,21 +204,25 @@ void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refus
   struct Visit {
     Admitted admitted;
     Ready ready;
+    StillReady still_ready;
     Begin begin;
   };
-  const auto visit = std::make_shared<Visit>(Visit{*std::move(admitted), std::move(ready), std::move(begin)});
+  const auto visit =
+      std::make_shared<Visit>(Visit{*std::move(admitted), std::move(ready), std::move(still_ready), std::move(begin)});
   using Controller = typename Device::Controller;
   const auto too_late = [refuse_it] { refuse_it(daemon_ending()); };
   const auto come = [kind = asked.kind, visit, mutation, refuse_it, too_late](Controller& controller, TimePoint now) {
     const Admitted& it = visit->admitted;
     const Turn turn{*it.device, controller, it.caller, it.context, now};
-    const Result<std::string> what = ready_if_up(kind, turn, visit->ready);
+    const Result<void> up = check_up(kind, turn);
+    const Result<std::string> what = up ? visit->ready(turn) : tl::unexpected(up.error());
     if (!what) return refuse_it(what.error());
     audit(kind, turn.device, turn.context, *what);
     const auto come_again = [kind, visit, mutation, refuse_it](Controller& same, TimePoint later) {
       const Admitted& still = visit->admitted;
       const Turn second{*still.device, same, still.caller, still.context, later};
-      const Result<std::string> yet = ready_if_up(kind, second, visit->ready);
+      if (const Result<void> still_up = check_up(kind, second); !still_up) return refuse_it(still_up.error());
+      const auto yet = visit->still_ready(second);
       yet ? visit->begin(second, mutation) : refuse_it(yet.error());
     };
     const auto then = [visit, come_again, refuse_it, too_late](const Result<void>& written) {
@@ -239,21 +247,23 @@ void PipelineOf<Device>::run(const Asked& asked, Answer<Outcome> answer, Prepare
                  good ? respond(Result<Outcome>()) : respond(tl::unexpected(good.error()));
                });
   }
+  using Prepared = typename std::invoke_result_t<Prepare, const Turn&>::value_type;
+  const auto prepared = std::make_shared<std::optional<Prepared>>();
   act(
       asked,
-      [kind = asked.kind, prepare, check, describe](const Turn& turn) -> Result<std::string> {
-        auto prepared = prepare(turn);
-        if (!prepared) return tl::unexpected(prepared.error());
+      [kind = asked.kind, prepare, check, describe, prepared](const Turn& turn) -> Result<std::string> {
+        auto operation = prepare(turn);
+        if (!operation) return tl::unexpected(operation.error());
         Result<void> good = check_now(kind, turn);
-        if (good) good = check(turn, *prepared);
-        if (good) good = turn.controller.check_use(turn.context, axes_used(*prepared, turn.controller.state()));
+        if (good) good = check(turn, *operation);
+        if (good) good = turn.controller.check_use(turn.context, axes_used(*operation, turn.controller.state()));
         if (!good) return tl::unexpected(good.error());
-        return describe(*prepared);
+        prepared->emplace(*std::move(operation));
+        return describe(**prepared);
       },
-      [prepare, begin, answer](const Turn& turn, const MutationPtr& mutation) {
-        const Answer<Outcome> respond = settling(mutation, answer);
-        auto prepared = prepare(turn);
-        prepared ? begin(turn, *std::move(prepared), respond) : respond(tl::unexpected(prepared.error()));
+      [kind = asked.kind](const Turn& turn) { return check_now(kind, turn); },
+      [prepared, begin, answer](const Turn& turn, const MutationPtr& mutation) {
+        begin(turn, *std::move(*prepared), settling(mutation, answer));
       },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
       [repeat, answer](Device& device, const auto& known) { repeat(device, known, answer); });
