@@ -22,7 +22,8 @@ bool is_known_command(std::string_view line) { return parse_command(line).has_va
 }  // namespace
 
 Barrier::Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
-                 std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write)
+                 std::function<bool(const Identity&)> is_known,
+                 std::function<void(std::string_view line, TimePoint now)> write)
     : line_in_doubt_(std::move(line_in_doubt)),
       limits_(limits),
       outstanding_(outstanding),
@@ -64,7 +65,7 @@ int Barrier::older_answers(Step step) const {
 void Barrier::probe(TimePoint now) {
   ++probes_;
   probed_ = now;
-  write_(commands::text(step_ == Step::identity ? Question::identity : Question::previous_command));
+  write_(commands::text(step_ == Step::identity ? Question::identity : Question::previous_command), now);
   deadline_ = now + limits_.reply;
 }
 

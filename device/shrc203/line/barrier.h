@@ -39,7 +39,8 @@ class Barrier {
   // the expected controller. `write` sends one line.
   static constexpr std::string_view kAnyLine = "?";
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
-          std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write);
+          std::function<bool(const Identity&)> is_known,
+          std::function<void(std::string_view line, TimePoint now)> write);
 
   void start(TimePoint now);
   // Begins again because a stop was written meanwhile.
@@ -83,7 +84,7 @@ class Barrier {
   Limits limits_;
   OutstandingAnswers& outstanding_;
   std::function<bool(const Identity&)> is_known_;
-  std::function<void(std::string_view)> write_;
+  std::function<void(std::string_view line, TimePoint now)> write_;
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;

@@ -286,7 +286,7 @@ Barrier::Limits Line::connect_limits() {
 std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt, Barrier::Limits limits) {
   return std::make_unique<Barrier>(
       std::move(line_in_doubt), limits, outstanding_, [this](const Identity& identity) { return is_known(identity); },
-      [this](std::string_view line) { write_line(line); });
+      [this](std::string_view line, TimePoint) { write_line(line); });
 }
 
 // Reports whether the identity is that of the configured controller, or of the controller that was connected before.

@@ -19,7 +19,9 @@
 #include "device/shrc203/line/barrier.h"
 #include "device/shrc203/line/completions.h"
 #include "device/shrc203/line/continuity.h"
+#include "device/shrc203/line/exchange_request.h"
 #include "device/shrc203/line/flood.h"
+#include "device/shrc203/line/line_listener.h"
 #include "device/shrc203/line/line_timing.h"
 #include "device/shrc203/line/link.h"
 #include "device/shrc203/line/reservations.h"
@@ -27,72 +29,6 @@
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {
-
-struct ExchangeRequest {
-  Command command;
-  Lane lane = Lane::question;
-  std::string caller;
-  std::string identity{};   // takes the turn, with a share of the lane; empty: `caller`, without one
-  TimePoint not_after{};    // latest time for writing the line
-  MotionId motion = 0;      // motion that the line belongs to; 0 for none
-  std::uint64_t lease = 0;  // lease of the request; for lines without a motion
-  AxisSet uses;             // axes that a line without a motion needs the right to
-  bool tidies = false;      // the line only restores what the motion changed, so it needs no right
-  AxisSet completes;        // axes that may complete once the line is written
-  bool handshake = false;   // the line may be sent before open()
-  bool closed = false;      // an !:S follows a number that could be a completion, and shows that all have arrived
-};
-
-struct ExchangeResult {
-  bool written = false;              // false: the controller has certainly not received the line
-  std::optional<Reply> reply{};      // set if a reply was matched
-  std::optional<Problem> problem{};  // reason why no reply can be trusted; also set for NG_I
-  // Evidence from ?:CMD for an exchange in doubt: whether the controller received the line. nullopt if there is none.
-  std::optional<bool> received{};
-
-  // All numbers of a closed exchange whose reply could not be distinguished from completions. `reply` is the first.
-  std::vector<int> candidates{};
-
-  bool accepted() const { return reply && reply->accepted() && !problem; }
-  bool refused() const { return reply && reply->kind == Reply::Kind::ng; }
-  // Reports whether the line was written and its effect is unknown.
-  bool in_doubt() const { return written && problem.has_value(); }
-};
-
-// A HeldQuestion is a question that waits until no completion could be taken for its reply.
-struct HeldQuestion {
-  std::string line, caller;
-  TimePoint since{};
-};
-
-class LineListener {
- public:
-  virtual ~LineListener() = default;
-  virtual void line_opened(TimePoint now) = 0;
-  // Returns the stops to write now, before any probe. Called when the port was opened (`heard` is empty), or when a
-  // line other than an axis number was received during a barrier. The replies to these stops are not awaited.
-  virtual std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) = 0;
-  // Reports whether a stop is open, so that a closed port is opened again soon.
-  virtual bool stop_is_open() const = 0;
-  // Called when the identity was received and the line fell silent: the handshake may run. `line_before` is the line
-  // that the controller received before the connect, if Line::ask_line_before() was called.
-  virtual void line_connected(const Identity& identity, const std::optional<std::string>& line_before,
-                              TimePoint now) = 0;
-  virtual void line_trusted(TimePoint now) = 0;  // open() was called; waiting lines are sent next
-  virtual void line_lost(const std::string& why, TimePoint now) = 0;
-  virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
-  virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
-  // Called when the controller may have restarted. Only stops and lines of the handshake are sent until
-  // confirm_no_restart() or disconnect().
-  virtual void restart_suspected(TimePoint now) = 0;
-  virtual void same_controller(TimePoint now) = 0;  // confirm_no_restart() was called
-  // `doubtful`: the completion was not expected now, or was received in a barrier.
-  virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
-  virtual void line_event(const Event& event, TimePoint now) = 0;
-  // Called right before a line that belongs to a motion or uses axes is written. The line is not written if this
-  // returns a problem.
-  virtual std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) = 0;
-};
 
 class Line {
  public:
@@ -152,12 +88,6 @@ class Line {
   int outstanding() const { return outstanding_.echoes + outstanding_.identities; }
 
  private:
-  struct Waiting {
-    ExchangeRequest request;
-    std::vector<OneShot<ExchangeResult>> answers;
-    TimePoint asked;
-  };
-  using WaitingPtr = std::shared_ptr<Waiting>;
   struct InFlight {
     WaitingPtr waiting;
     TimePoint written, limit;

@@ -8,12 +8,11 @@
 #include "device/core/escape.h"
 #include "device/core/guard.h"
 #include "device/shrc203/limits.h"
+#include "device/shrc203/line/exchange.h"
 #include "device/shrc203/line/line.h"
 
 namespace axisgate::shrc203 {
 namespace {
-
-constexpr auto kClosing = commands::Question::each_ready;  // sent after a number that may be a completion
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   switch (kind) {

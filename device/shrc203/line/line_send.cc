@@ -95,7 +95,7 @@ void Line::pump(TimePoint now) {
 }
 
 // Returns null if nothing may be sent. Requests that lost their right while they waited are refused and never sent.
-Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
+WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
   while (auto next = queue_.take(may_go)) {
     const ExchangeRequest& request = (*next)->request;
     const bool asks = (request.motion != 0 || !request.uses.empty()) && !request.tidies;

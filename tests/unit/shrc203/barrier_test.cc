@@ -23,7 +23,7 @@ class BarrierTest : public testing::Test {
     return Barrier(
         std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
         [](const Identity& identity) { return identity.serial_number == "2106001001"; },
-        [this](std::string_view line) { lines.emplace_back(line); });
+        [this](std::string_view line, TimePoint) { lines.emplace_back(line); });
   }
   std::vector<std::string> lines;
   OutstandingAnswers owed;
