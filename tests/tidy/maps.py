@@ -48,6 +48,11 @@ def _check_names(page, paths, folders):
         for target in targets:
             if not _exists(target, paths, folders):
                 yield page.finding(number, "map-path", f"{target} does not exist", "name the file or folder as it is")
+        if line.startswith("| `") and page.path.endswith("README.md"):
+            for name in filter(_FILE.fullmatch, _CODE.findall(line.split("|")[1])):
+                below = (posixpath.join(here, name), posixpath.join(here, "*", name))
+                if not any(fnmatch.filter(paths, pattern) for pattern in below):
+                    yield page.finding(number, "map-path", f"{here}/ has no {name}", "list the files of the folder")
         for name in filter(_FILE.fullmatch, _CODE.findall(line)):
             if not name.startswith(_TOPS) and not fnmatch.filter(paths, name) and not fnmatch.filter(paths, f"*/{name}"):
                 yield page.finding(number, "map-path", f"no file is called {name}", "name the file as it is")

@@ -27,6 +27,13 @@ class Names(unittest.TestCase):
             self.assertEqual(findings(README_DOT_md=name + "\n", server__a_DOT_cc=""), ["map-path"], name)
 
 
+    def test_a_table_names_files_below_its_page(self):
+        row = "| `a.*` | what it does |\n"
+        self.assertEqual(findings(server__README_DOT_md=row, server__log__a_DOT_cc="", device__a_DOT_cc=""),
+                         ["map-folders"])
+        self.assertEqual(findings(server__log__README_DOT_md=row, device__a_DOT_cc=""), ["map-path"])
+
+
 class Folders(unittest.TestCase):
     def test_each_folder_is_in_its_page(self):
         self.assertEqual(findings(device__README_DOT_md="`core/`\n", device__core__a_DOT_h=""), [])
