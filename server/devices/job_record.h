@@ -39,7 +39,7 @@ class JobRecord {
   const std::optional<LastJob>& before() const { return before_; }
   // Reports whether the previous run had an abort that had not left this host.
   bool abort_waited() const { return abort_waited_; }
-  // MillController::z0_count() of earlier runs.
+  // Machine::z0_count() of earlier runs.
   std::uint64_t z0_count() const;
 
   // Records the start of a job, of its next part, or of the rest of a part.

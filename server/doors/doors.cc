@@ -51,7 +51,7 @@ std::vector<Watchdog::Thread> Doors::threads() {
   const auto ask_listener = [strand = listener_->strand()](std::function<void()> answer) {
     boost::asio::post(strand, std::move(answer));
   };
-  return {{"the thread of the listener", ask_listener}, grpc_.threads()};
+  return {{"the thread of the listener", ask_listener}, grpc_.thread()};
 }
 
 Doors::~Doors() {

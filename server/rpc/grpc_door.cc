@@ -50,7 +50,7 @@ class GrpcDoor::Members {
   Result<void> start();
   void enter(Descriptor connection);
   void end();
-  server::Watchdog::Thread threads();
+  server::Watchdog::Thread thread();
 
   Refusals refusals;
   CallFilter filter;
@@ -75,9 +75,9 @@ class GrpcDoor::Members {
   AccessService known_callers_;
   HealthService health_;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
-  std::unique_ptr<grpc::Server> grpc_;                      // null before start()
-  std::shared_ptr<grpc::health::v1::Health::Stub> itself_;  // a client within this process
-  std::optional<QueueWaker> waker_;                         // none before start() and after end()
+  std::unique_ptr<grpc::Server> grpc_;                          // null before start()
+  std::shared_ptr<grpc::health::v1::Health::Stub> own_client_;  // a client within this process
+  std::optional<QueueWaker> waker_;                             // none before start() and after end()
   bool ended_ = false;
 };
 
@@ -109,9 +109,9 @@ Result<void> GrpcDoor::Members::start() {
   if (grpc_ == nullptr) {
     return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
   }
-  const auto itself = grpc_->InProcessChannel({});
-  itself_ = grpc::health::v1::Health::NewStub(itself);
-  waker_.emplace(itself, gateway_.timeouts());
+  const auto channel = grpc_->InProcessChannel({});
+  own_client_ = grpc::health::v1::Health::NewStub(channel);
+  waker_.emplace(channel, gateway_.timeouts());
   return {};
 }
 
@@ -141,15 +141,15 @@ void GrpcDoor::Members::build() {
 }
 
 // gRPC's threads answer when a call that the daemon makes to itself has passed through them.
-server::Watchdog::Thread GrpcDoor::Members::threads() {
-  const auto ask = [itself = itself_](std::function<void()> answer) {
+server::Watchdog::Thread GrpcDoor::Members::thread() {
+  const auto ask = [client = own_client_](std::function<void()> answer) {
     struct Call {
       grpc::ClientContext context;
       grpc::health::v1::HealthCheckRequest request;
       grpc::health::v1::HealthCheckResponse response;
     };
     const auto call = std::make_shared<Call>();
-    itself->async()->Check(&call->context, &call->request, &call->response,
+    client->async()->Check(&call->context, &call->request, &call->response,
                            [call, answer = std::move(answer)](const grpc::Status& status) {
                              if (status.ok()) answer();
                            });
@@ -184,6 +184,6 @@ front::CallFilter& GrpcDoor::filter() { return members_->filter; }
 
 void GrpcDoor::note(const front::Peer& peer, const front::Closing& closing) { members_->refusals.note(peer, closing); }
 
-server::Watchdog::Thread GrpcDoor::threads() { return members_->threads(); }
+server::Watchdog::Thread GrpcDoor::thread() { return members_->thread(); }
 
 }  // namespace axisgate::rpc

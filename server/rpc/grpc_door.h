@@ -32,8 +32,8 @@ class GrpcDoor {
   front::CallFilter& filter();
   // Counts and logs a connection that the front closed for a reason. Thread safe.
   void note(const front::Peer& peer, const front::Closing& closing);
-  // gRPC's threads, for the watchdog; valid as long as this object lives, after start().
-  server::Watchdog::Thread threads();
+  // Returns gRPC's threads, watched as one. Call it after start(); valid as long as this object lives.
+  server::Watchdog::Thread thread();
 
  private:
   class Members;

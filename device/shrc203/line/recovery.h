@@ -47,7 +47,7 @@ class Recovery {
   void ask_line_before() { asks_line_before_ = true; }
   // Begins the first barrier of a connection, after the stops that are open.
   void connect(TimePoint now);
-  // Begins a barrier because the reply to the exchange in flight cannot be trusted: `doubted` is its result so far.
+  // Begins a barrier because the reply to the exchange in flight cannot be trusted: `doubted` is its result.
   void doubt(ExchangeResult doubted, ExchangeEnded::Outcome outcome, TimePoint now);
 
   // Takes a complete line that is not a completion, during a barrier.

@@ -48,7 +48,7 @@ struct JobToSend {
 struct JobsBefore {
   jobs::JobNumber continues = 0;            // see jobs::Job::continues
   jobs::JobNumber cut = 0;                  // newest job that cut the workpiece before; 0: none
-  std::optional<std::uint64_t> z0_count{};  // MillController::z0_count() when job `cut` began; nullopt: any
+  std::optional<std::uint64_t> z0_count{};  // Machine::z0_count() when job `cut` began; nullopt: any
   std::vector<std::string> accepted{};      // accepted for the repeated job, in addition to those of JobToSend
   std::optional<jobs::Place> from{};        // start of the rest of the repeated job, in `part`
   std::size_t part = 0;
