@@ -95,7 +95,7 @@ void AbortBench::abort() {
 
 void AbortBench::stop_writing() {
   end_writing();
-  sender_.pause(mill_.now);
+  sender_.pause();
 }
 
 void AbortBench::end_writing() {

@@ -210,6 +210,30 @@ TEST_F(ByHandAtTheMill, AfterAnAbortNothingThatNeedsTheToolAtRest) {
   EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::unspecified);
 }
 
+TEST_F(ByHandAtTheMill, AfterAnAbortThatWaitedForTheLineTheToolRisesLater) {
+  mill_.link_down(now_, "unplugged");
+  EXPECT_FALSE(mill_.abort({.who = "unix bert"}, now_));
+  mill_.link_up(now_ += 60s);
+  line_.run_to(now_ += 1s);
+  mill_.advance(now_);
+  EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::axis_busy) << "the tool may still rise";
+  line_.run_to(now_ += 60s);
+  EXPECT_EQ(reason(jobs::JogStep{1, 0, 0, {}}), Reason::unspecified);
+}
+
+TEST_F(ByHandAtTheMill, AStepGoesOnUntilAnAbortThatWaitedArrives) {
+  ASSERT_TRUE(mill_.operate(jobs::JogStep{50, 0, 0, 1.0}, {.who = "unix anna"}, now_));
+  line_.run_to(now_ += 1s);
+  mill_.link_down(now_, "unplugged");
+  EXPECT_FALSE(mill_.abort({.who = "unix bert"}, now_));
+  mill_.link_up(now_ += 20s);
+  line_.run_to(now_ += 1s);
+  mill_.advance(now_);
+  now_ += 1s;
+  add_confirmed();
+  EXPECT_TRUE(start()) << "the abort has passed any converter, and has ended the step";
+}
+
 TEST_F(ByHandAtTheMill, CountsHowOftenZ0IsSent) {
   EXPECT_EQ(reason(jobs::SetZ0{-800}), Reason::unspecified);
   EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::axis_busy) << "the line has not taken it";

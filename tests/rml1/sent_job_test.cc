@@ -98,7 +98,7 @@ Paused paused(const std::string& job, const Pair& pair, jobs::SendSettings setti
     run_to(std::max(now, std::min(next_pause, sender.next_deadline(now).value_or(next_pause))));
     if (now < next_pause) continue;
     next_pause = now + between;
-    sender.pause(now);
+    sender.pause();
     if (sender.state() != jobs::SenderState::paused) continue;
     const TimePoint since = now;
     while (line.executed() < sender.progress(now).written && now - since < kForever) run_to(now + milliseconds(1));

@@ -73,7 +73,7 @@ TEST_F(Taken, WhatIsDiscardedWithTheLineIsNotTaken) {
   ASSERT_GT(line_.unsent(), 0u);
   const std::size_t left = line_.received.size();
   line_ = FakeMillLine();  // device/link discards waiting bytes in the same manner
-  sender_->line_lost(now_);
+  sender_->line_lost();
   EXPECT_EQ(progress().taken, left);
 }
 

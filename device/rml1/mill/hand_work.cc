@@ -26,17 +26,19 @@ Result<void> HandWork::check_taken() const {
 // A mill executes all bytes in order, so a job could be sent at once. But the pace of a job is computed for a mill that
 // executes nothing else when the job starts.
 Result<void> HandWork::check_still(TimePoint now) const {
-  if (done_at_ <= now) return {};
+  const TimePoint done = done_by();
+  if (done <= now) return {};
   return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
-              fmt::format("ask again after {} s", seconds_until(done_at_, now)));
+              fmt::format("ask again after {} s", seconds_until(done, now)));
 }
 
 // The tool rises after an abort. How much the mill executes before it obeys the abort is unknown; the answer to the
 // abort says so.
 Result<void> HandWork::check_risen(TimePoint now) const {
-  if (risen_at_ <= now) return {};
+  const TimePoint risen = abort_.arrived_by() + longest_move(profile_.z_mm, profile_.speed.z_maximum, profile_, slack_);
+  if (risen <= now) return {};
   return fail(Reason::axis_busy, "the tool may still rise after the abort",
-              fmt::format("look at the mill, and ask again after {} s", seconds_until(risen_at_, now)));
+              fmt::format("look at the mill, and ask again after {} s", seconds_until(risen, now)));
 }
 
 Result<void> HandWork::check_idle(TimePoint now) const {
@@ -60,13 +62,14 @@ Result<void> HandWork::check(const jobs::HandAct& act, TimePoint now) const {
 
 Duration HandWork::write(const HandCommands& words, TimePoint now) {
   line_.write(words.bytes);
-  done_at_ = std::max(done_at_, now) + words.longest;
+  done_at_ = std::max(done_by(), now) + words.longest;
+  written_at_ = now;
   return done_at_ - now;
 }
 
-void HandWork::abort_requested(TimePoint now) {
-  done_at_ = now;
-  risen_at_ = now + longest_move(profile_.z_mm, profile_.speed.z_maximum, profile_, slack_);
+// An abort ends the acts before it when it arrives, which may be long after somebody asked for it.
+TimePoint HandWork::done_by() const {
+  return written_at_ < abort_.left_at() ? std::min(done_at_, abort_.arrived_by()) : done_at_;
 }
 
 }  // namespace axisgate::rml1

@@ -27,20 +27,19 @@ class HandWork {
   Result<void> check_idle(TimePoint now) const;
   // Writes the commands. Returns the longest time until the mill has executed this act and all acts before it.
   Duration write(const HandCommands& words, TimePoint now);
-  // Notes that an abort ends all acts by hand, and that the tool then rises.
-  void abort_requested(TimePoint now);
 
  private:
   Result<void> check_taken() const;
   Result<void> check_still(TimePoint now) const;
   Result<void> check_risen(TimePoint now) const;
+  TimePoint done_by() const;
 
   const Profile& profile_;
   const double slack_;
   FlowLink& line_;
   const Abort& abort_;
-  TimePoint done_at_{};   // latest end of all acts by hand
-  TimePoint risen_at_{};  // latest time at which the tool is up after an abort, if the mill obeys the abort at once
+  TimePoint written_at_{};  // time of the latest act by hand
+  TimePoint done_at_{};     // latest end of all acts by hand, unless an abort ends them
 };
 
 }  // namespace axisgate::rml1

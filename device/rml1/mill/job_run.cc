@@ -80,7 +80,7 @@ Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
 Result<void> JobRun::pause(bool raise, TimePoint now) {
   if (run_) run_->sender.advance(now);
   const Result<void> can = check_pausable(raise, now);
-  if (can) raise ? run_->sender.raise(now) : run_->sender.pause(now);
+  if (can) raise ? run_->sender.raise() : run_->sender.pause();
   follow_sender(now);
   return can;
 }
@@ -114,7 +114,7 @@ void JobRun::note_executed(TimePoint now) {
 
 void JobRun::line_lost(std::string_view why, TimePoint now) {
   if (!run_) return;
-  run_->sender.line_lost(now);
+  run_->sender.line_lost();
   end(jobs::JobEvent::lost, "", why, now);
 }
 

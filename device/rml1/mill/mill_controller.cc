@@ -144,7 +144,6 @@ bool MillController::abort(const use::RequestContext& by, TimePoint now) {
 bool MillController::abort(std::string_view by, TimePoint now) {
   events_.abort_requested(by, now);
   if (guarded(jobs::MillGuard::void_after_abort)) setup_changed("an abort", now);
-  hand_.abort_requested(now);
   if (run_.number() == 0) return send_abort(now);
   run_.abort(by, now);
   return true;
@@ -218,7 +217,6 @@ void MillController::illegal(std::string_view machine, std::string_view state, s
 void MillController::recover(TimePoint now) {
   events_.internal_error(internal_error_, now);
   run_.abandon(internal_error_, now);
-  hand_.abort_requested(now);
   if (link_ == jobs::MachineLink::open) link_down(now, internal_error_);
   abort_.postpone();
   internal_error_.clear();

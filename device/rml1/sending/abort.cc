@@ -62,6 +62,7 @@ void Abort::advance(TimePoint now) {
   if (line_.unsent() == 0) {
     line_.ignore_flow_control(false);
     change(AbortEvent::left);
+    left_ = now;
     arrives_ = now + transmit_time(settings_.converter, settings_.baud);
     return;
   }

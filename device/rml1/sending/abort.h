@@ -58,6 +58,10 @@ class Abort {
   AbortPhase phase() const { return phase_; }
   // Reports whether the abort waits for the line, or has not left this host completely.
   bool waits() const { return phase_ == AbortPhase::waits || phase_ == AbortPhase::leaves; }
+  // Returns when the last byte of the latest abort had left this host, and until when a converter may have contained
+  // it; the beginning of time if none has left.
+  TimePoint left_at() const { return left_; }
+  TimePoint arrived_by() const { return arrives_; }
 
   static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
   // Longest time between two calls of advance() in phase `leaves`.
@@ -72,8 +76,9 @@ class Abort {
   FlowLink& line_;
   Violations& violations_;
   AbortPhase phase_ = AbortPhase::none;
-  TimePoint written_{};  // time of write(), for phase `leaves`
-  TimePoint arrives_{};  // latest time of arrival at the mill, for phase `travels`
+  TimePoint written_{};                   // time of write(), for phase `leaves`
+  TimePoint left_ = TimePoint::min();     // time of the change to phase `travels`
+  TimePoint arrives_ = TimePoint::min();  // latest time of arrival at the mill, set with left_
 };
 
 }  // namespace axisgate::rml1

@@ -68,10 +68,7 @@ void Sender::start(TimePoint now) {
   if (request(SendEvent::start)) send(now);
 }
 
-void Sender::pause(TimePoint now) {
-  advance(now);
-  request(SendEvent::pause);
-}
+void Sender::pause() { request(SendEvent::pause); }
 
 void Sender::resume(TimePoint now) {
   learn(now);
@@ -80,8 +77,7 @@ void Sender::resume(TimePoint now) {
   send(now);
 }
 
-void Sender::raise(TimePoint now) {
-  advance(now);
+void Sender::raise() {
   if (request(SendEvent::raise)) line_.write(raise_commands(profile_, rests_after_written()));
 }
 
@@ -92,7 +88,7 @@ bool Sender::rests_after_written() const {
   return next == steps.begin() || !std::prev(next)->turning;
 }
 
-void Sender::line_lost(TimePoint) { request(SendEvent::line_lost); }
+void Sender::line_lost() { request(SendEvent::line_lost); }
 
 // The abort follows the written part of the job, which ends with a complete command or set of coordinates.
 void Sender::abort(TimePoint now) {

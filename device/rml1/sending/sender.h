@@ -47,13 +47,13 @@ class Sender {
 
   // A request that the present state does not allow has no effect.
   void start(TimePoint now);
-  void pause(TimePoint now);
+  void pause();
   void resume(TimePoint now);
   // Stops sending the job, and writes the commands that raise the tool and stop the spindle after the last sent byte.
-  void raise(TimePoint now);
+  void raise();
   // Stops sending the job, and writes the abort.
   void abort(TimePoint now);
-  void line_lost(TimePoint now);
+  void line_lost();
 
   void advance(TimePoint now);
   // Time at which advance() must be called next; nullopt if only another call can change the sender.
