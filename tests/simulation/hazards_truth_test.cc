@@ -301,6 +301,20 @@ TEST(Motions, NothingIsSetBeforeTheAxesStand) {
 }
 
 // The late completion of a stopped move does not belong to the next one (manual 65) leaves open whether there is one).
+// The axis is stationary, so nobody is told that it did not stop.
+TEST(Hazard, H57_AMoveWithoutTimeForALateCompletionIsToldSo) {
+  World world(with_option("completion_after_stop", "none"));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500'000}});
+  world.run_for(milliseconds(500));
+  world.controller().stop({}, world.context("stopper"), world.now(), [](const StopReport&) {});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped);
+  auto request = move_of(world, {{1, -300}}, true);
+  request.context = world.context("tester", milliseconds(5));
+  world.controller().move(std::move(request), world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::completion_outstanding) << world.replay();
+}
+
 TEST(Hazard, H57_TheLateCompletionOfAStoppedMove) {
   for (int late = 150; late < 225 && !HasFailure(); late += 3) {
     auto setup = with_option("completion_after_stop", "sent");

@@ -40,15 +40,17 @@ bool WaitingLines::add(ExchangeRequest request, OneShot<ExchangeResult> answer, 
   return refuse(std::move(full));
 }
 
-// Returns a waiting line that asks the same in the same lane; null if there is none.
+// Returns a waiting line that asks the same in the same lane; null if there is none. A question that needs a right is
+// shared only within its motion: the right of one caller may be lost while that of the other lasts.
 WaitingPtr WaitingLines::same_question(const ExchangeRequest& request) const {
   WaitingPtr same;
   if (request.command.row->effect != Effect::question) return same;
   queue_.for_each([&](const WaitingPtr& waiting) {
     const auto& other = waiting->request;
     const bool same_line = other.command.line == request.command.line || !guarded(Guard::shared_questions);
-    if (same_line && other.lane == request.lane && other.handshake == request.handshake && !other.closed &&
-        !request.closed) {
+    const bool same_right = other.motion == request.motion && other.uses.empty() && request.uses.empty();
+    const bool closed = other.closed || request.closed;
+    if (same_line && same_right && !closed && other.lane == request.lane && other.handshake == request.handshake) {
       same = waiting;
     }
   });

@@ -45,6 +45,24 @@ Task<Result<void>> Entry::prepare(LiveMotionPtr live, Register reg) {
   co_return ready;
 }
 
+namespace {
+
+// Returns why a motion of `axes` must not start yet. `busy`: axis that moves; 0 if only a completion is outstanding.
+Problem late(int busy, AxisSet axes) {
+  if (busy != 0) {
+    return {.reason = Reason::axis_busy,
+            .message = fmt::format("axis {} did not stop in the time allowed", busy),
+            .hint = "wait until it is stationary, or stop it: axisctl stop",
+            .axis = busy};
+  }
+  return {.reason = Reason::completion_outstanding,
+          .message = "the completion of an earlier motion may still come, and would be taken for this one's",
+          .hint = "try again, and allow a second",
+          .axis = axes.list().front()};
+}
+
+}  // namespace
+
 // Waits until the axes are stationary and no late completion is possible.
 Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
   const AxisSet axes = live->motion.axes;
@@ -59,11 +77,7 @@ Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
       if (busy == 0 && store_.state().axis(axis).busy.value_or(true)) busy = axis;
     }
     if ((busy == 0 || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
-    if (tasks_.now() >= live->context.not_after) {
-      const int late = busy != 0 ? busy : axes.list().front();
-      co_return fail_on(late, Reason::axis_busy, fmt::format("axis {} did not stop in the time allowed", late),
-                        "wait until it is stationary, or stop it: axisctl stop");
-    }
+    if (tasks_.now() >= live->context.not_after) co_return tl::unexpected(late(busy, axes));
     auto pause = tasks_.pause(kReadyPoll);
     co_await pause;
     const bool stopped = live->life.stop_asked() && guarded(Guard::stop_before_preparing);

@@ -143,6 +143,22 @@ TEST_F(LineLanesTest, OnlyIdenticalQuestionsShareOne) {
   EXPECT_EQ(model->reply(), "SHRC-203");
 }
 
+TEST_F(LineLanesTest, AMotionThatLosesItsRightTakesNoOtherQuestionWithIt) {
+  keep_the_line_busy();
+  ExchangeRequest question = request("?:V");
+  question.motion = 1;
+  const auto lost = ask(question);
+  question.motion = 2;
+  const auto kept = ask(question), shared = ask(question);
+  EXPECT_EQ(line.queued(Lane::question), 2u);
+  listener.refuses = [](const ExchangeRequest& asked) { return asked.motion == 1; };
+  let_go();
+  script({{"?:V\r\n", "V2.00.000\r\n"}});
+  EXPECT_EQ(lost->reason(), Reason::lease_lost);
+  EXPECT_EQ(kept->reply(), "V2.00.000");
+  EXPECT_EQ(shared->reply(), "V2.00.000");
+}
+
 // The controller may have answered the question before the second caller asked.
 TEST_F(LineLanesTest, AQuestionOnTheWireIsNotShared) {
   const auto first = ask("?:V"), second = ask("?:V");
