@@ -301,7 +301,7 @@ TEST(Motions, NothingIsSetBeforeTheAxesStand) {
 }
 
 // The late completion of a stopped move does not belong to the next one (manual 65) leaves open whether there is one).
-// The axis is stationary, so nobody is told that it did not stop.
+// The axis is stationary, so no answer says that it did not stop.
 TEST(Hazard, H57_AMoveWithoutTimeForALateCompletionIsToldSo) {
   World world(with_option("completion_after_stop", "none"));
   ASSERT_TRUE(world.run_until_up()) << world.replay();

@@ -67,7 +67,7 @@ Duration HandWork::write(const HandCommands& words, TimePoint now) {
   return done_at_ - now;
 }
 
-// An abort ends the acts before it when it arrives, which may be long after somebody asked for it.
+// An abort ends the acts before it when it arrives, which may be long after somebody requested it.
 TimePoint HandWork::done_by() const {
   return written_at_ < abort_.left_at() ? std::min(done_at_, abort_.arrived_by()) : done_at_;
 }

@@ -146,6 +146,16 @@ class LineFixture : public testing::Test {
     }
   }
 
+  // Puts a line in flight, so that every later line has to wait.
+  void keep_the_line_busy() {
+    ask("?:SN");
+    EXPECT_EQ(sent(), "?:SN\r\n");
+  }
+  void let_go() {
+    pass(5);
+    receive("2106001001\r\n");
+  }
+
   ExchangeRequest request(std::string_view text) const {
     ExchangeRequest one;
     one.command = *parse_command(text);
