@@ -19,14 +19,7 @@
 #include "server/rpc/gate/call_filter.h"
 #include "server/rpc/gate/refusals.h"
 #include "server/rpc/gate/rpc_metrics.h"
-#include "server/rpc/services/access_service.h"
-#include "server/rpc/services/command_service.h"
-#include "server/rpc/services/control_service.h"
-#include "server/rpc/services/device_service.h"
-#include "server/rpc/services/diagnostics_service.h"
-#include "server/rpc/services/event_service.h"
-#include "server/rpc/services/health_service.h"
-#include "server/rpc/services/history_service.h"
+#include "server/rpc/services.h"
 #include "server/rpc/services/mill_service.h"
 #include "server/rpc/services/position_service.h"
 #include "server/rpc/services/setting_service.h"
@@ -61,19 +54,12 @@ class GrpcDoor::Members {
   server::Gateway& gateway_;
   const HalfClose half_close_;
   RpcMetrics rpc_metrics_;
-  DeviceService devices_;
+  std::vector<std::unique_ptr<grpc::Service>> services_;
   StageService stage_;
-  EventService events_;
-  HistoryService history_;
-  CommandService commands_;
   SettingService settings_;
   SimulatorService simulators_;
   PositionService positions_;
   MillService mills_;
-  DiagnosticsService diagnostics_;
-  ControlService control_;
-  AccessService known_callers_;
-  HealthService health_;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> grpc_;                          // null before start()
   std::shared_ptr<grpc::health::v1::Health::Stub> own_client_;  // a client within this process
@@ -89,19 +75,15 @@ GrpcDoor::Members::Members(server::Gateway& gateway, api::Api& api)
       gateway_(gateway),
       half_close_(gateway),
       rpc_metrics_(*gateway.metrics().registry()),
-      devices_(api.devices),
       stage_(api.motions, api.paths, api.jogs, half_close_),
-      events_(api.events),
-      history_(api.history, gateway),
-      commands_(api.commands),
       settings_(api.settings),
       simulators_(api.simulators),
       positions_(api.positions),
-      mills_(api.mill, half_close_),
-      diagnostics_(api.diagnostics),
-      control_(api.leases),
-      known_callers_(api.tokens),
-      health_(api.streams) {}
+      mills_(api.mill, half_close_) {
+  for (const ServedService& service : services()) {
+    if (service.make != nullptr) services_.push_back(service.make({gateway, api, half_close_}));
+  }
+}
 
 Result<void> GrpcDoor::Members::start() {
   gpr_set_log_function(log_quietly);
@@ -120,9 +102,9 @@ void GrpcDoor::Members::build() {
   grpc::ServerBuilder builder;
   // gRPC would otherwise estimate the bandwidth and raise the length of frames, which the front bounds.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
-           &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &mills_,
-           &diagnostics_, &control_, &known_callers_, &health_}) {
+  for (const auto& service : services_) builder.RegisterService(service.get());
+  for (grpc::Service* service :
+       std::initializer_list<grpc::Service*>{&stage_, &settings_, &simulators_, &positions_, &mills_}) {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;

@@ -1,28 +1,51 @@
-// Names of the services and methods that the daemon serves.
+// The services that the daemon serves, and their methods. A new service is a file in services/, its function here, and
+// its row in services.cc; a new method is a function of its service, and a row in server/api/request/request_kinds.h.
 #pragma once
 
-#include <array>
+#include <grpcpp/impl/service_type.h>
+
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "server/api/api.h"
+#include "server/gateway.h"
+#include "server/rpc/calls/half_close.h"
+
 namespace axisgate::rpc {
 
-inline constexpr std::array<std::string_view, 12> kApiServices = {
-    "axisgate.v1.DeviceService",    "axisgate.v1.StageService",    "axisgate.v1.EventService",
-    "axisgate.v1.HistoryService",   "axisgate.v1.CommandService",  "axisgate.v1.DiagnosticsService",
-    "axisgate.v1.ControlService",   "axisgate.v1.AccessService",   "axisgate.v1.SettingService",
-    "axisgate.v1.SimulatorService", "axisgate.v1.PositionService", "axisgate.v1.MillService"};
+// Services use these parts, which must outlive them.
+struct ServiceParts {
+  server::Gateway& gateway;
+  api::Api& api;
+  const HalfClose& half_close;
+};
 
-// gRPC's own services.
-inline constexpr std::array<std::string_view, 2> kCommonServices = {"grpc.health.v1.Health",
-                                                                    "grpc.reflection.v1alpha.ServerReflection"};
+std::unique_ptr<grpc::Service> access_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> command_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> control_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> device_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> diagnostics_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> event_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> health_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> history_service(const ServiceParts& parts);
+
+struct ServedService {
+  std::string_view name;                                                        // "axisgate.v1.StageService"
+  std::unique_ptr<grpc::Service> (*make)(const ServiceParts& parts) = nullptr;  // null: gRPC makes it
+};
+// Returns all services.
+std::span<const ServedService> services();
+// Reports whether a service is one of axisgate.v1.
+bool is_of_api(std::string_view service);
 
 struct ServedMethod {
   std::string name;  // "axisgate.v1.StageService/Move"
   bool streams = false;
 };
-// Methods of all these services.
+// Returns the methods of all services.
 std::vector<ServedMethod> served_methods();
 
 }  // namespace axisgate::rpc

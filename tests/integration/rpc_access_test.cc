@@ -16,7 +16,7 @@ namespace {
 
 using server::Role;
 
-// Methods by their least role, typed from the table of roles in the README. kOperator also has the methods that
+// Methods by their least role, typed by hand. kOperator also has the methods that
 // `admin_commands` restricts to administrators.
 const std::set<std::string> kObserver = {"AccessService/GetCaller",
                                          "CommandService/ListCommands",
@@ -82,9 +82,10 @@ Role needed(const std::string& method) {
 
 std::vector<std::string> methods() {
   std::vector<std::string> all;
-  for (const std::string_view service : kApiServices) {
+  for (const ServedService& service : services()) {
+    if (!is_of_api(service.name)) continue;
     const auto* descriptor =
-        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(std::string(service));
+        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(std::string(service.name));
     for (int i = 0; i < descriptor->method_count(); ++i) {
       all.push_back(descriptor->name() + "/" + descriptor->method(i)->name());
     }

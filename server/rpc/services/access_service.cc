@@ -1,46 +1,63 @@
-#include "server/rpc/services/access_service.h"
-
+// AccessService: the caller's own name and role, and tokens.
 #include <vector>
 
+#include "axisgate/v1/access.grpc.pb.h"
+#include "server/api/sharing/tokens.h"
 #include "server/proto/tokens.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
-grpc::ServerUnaryReactor* AccessService::GetCaller(grpc::CallbackServerContext* context, const v1::GetCallerRequest*,
-                                                   v1::GetCallerResponse* response) {
-  return answer_at_once(response, tokens_.caller(to_call(*context)),
-                        [](v1::GetCallerResponse& answer, const server::Caller& caller) {
-                          answer.set_who(caller.who);
-                          answer.set_role(static_cast<v1::Role>(caller.role));
-                        });
-}
+namespace {
 
-grpc::ServerUnaryReactor* AccessService::CreateToken(grpc::CallbackServerContext* context,
-                                                     const v1::CreateTokenRequest* request,
-                                                     v1::CreateTokenResponse* response) {
-  return answer_at_once(response, tokens_.create(to_checked_call(*context, *request), proto::to_new_token(*request)),
-                        [](v1::CreateTokenResponse& answer, const std::optional<api::CreatedToken>& created) {
-                          if (!created) return;
-                          answer.set_secret(created->secret);
-                          *answer.mutable_token() = proto::to_proto(created->token);
-                        });
-}
+class AccessService final : public v1::AccessService::CallbackService {
+ public:
+  // `tokens` must outlive this object.
+  explicit AccessService(const api::Tokens& tokens) : tokens_(tokens) {}
 
-grpc::ServerUnaryReactor* AccessService::ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest*,
-                                                    v1::ListTokensResponse* response) {
-  return answer_at_once(response, tokens_.list(to_call(*context)),
-                        [](v1::ListTokensResponse& answer, const std::vector<server::Token>& tokens) {
-                          for (const server::Token& token : tokens) *answer.add_tokens() = proto::to_proto(token);
-                        });
-}
+  grpc::ServerUnaryReactor* GetCaller(grpc::CallbackServerContext* context, const v1::GetCallerRequest*,
+                                      v1::GetCallerResponse* response) override {
+    return answer_at_once(response, tokens_.caller(to_call(*context)),
+                          [](v1::GetCallerResponse& answer, const server::Caller& caller) {
+                            answer.set_who(caller.who);
+                            answer.set_role(static_cast<v1::Role>(caller.role));
+                          });
+  }
 
-grpc::ServerUnaryReactor* AccessService::RevokeToken(grpc::CallbackServerContext* context,
-                                                     const v1::RevokeTokenRequest* request,
-                                                     v1::RevokeTokenResponse* response) {
-  const auto call = UnaryCall<v1::RevokeTokenResponse>::start(response);
-  answering(call)(tokens_.revoke(to_call(*context), request->name()));
-  return call.get();
+  grpc::ServerUnaryReactor* CreateToken(grpc::CallbackServerContext* context, const v1::CreateTokenRequest* request,
+                                        v1::CreateTokenResponse* response) override {
+    return answer_at_once(response, tokens_.create(to_checked_call(*context, *request), proto::to_new_token(*request)),
+                          [](v1::CreateTokenResponse& answer, const std::optional<api::CreatedToken>& created) {
+                            if (!created) return;
+                            answer.set_secret(created->secret);
+                            *answer.mutable_token() = proto::to_proto(created->token);
+                          });
+  }
+
+  grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest*,
+                                       v1::ListTokensResponse* response) override {
+    return answer_at_once(response, tokens_.list(to_call(*context)),
+                          [](v1::ListTokensResponse& answer, const std::vector<server::Token>& tokens) {
+                            for (const server::Token& token : tokens) *answer.add_tokens() = proto::to_proto(token);
+                          });
+  }
+
+  grpc::ServerUnaryReactor* RevokeToken(grpc::CallbackServerContext* context, const v1::RevokeTokenRequest* request,
+                                        v1::RevokeTokenResponse* response) override {
+    const auto call = UnaryCall<v1::RevokeTokenResponse>::start(response);
+    answering(call)(tokens_.revoke(to_call(*context), request->name()));
+    return call.get();
+  }
+
+ private:
+  const api::Tokens& tokens_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> access_service(const ServiceParts& parts) {
+  return std::make_unique<AccessService>(parts.api.tokens);
 }
 
 }  // namespace axisgate::rpc

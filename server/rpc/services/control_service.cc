@@ -1,14 +1,16 @@
-#include "server/rpc/services/control_service.h"
-
+// ControlService: leases, and the latches that other callers' stops set.
 #include <memory>
 #include <utility>
 
+#include "axisgate/v1/control.grpc.pb.h"
+#include "server/api/sharing/leases.h"
 #include "server/proto/amounts.h"
 #include "server/proto/lease_to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/lease_keeping.h"
 #include "server/rpc/calls/subscribed_stream.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -35,66 +37,75 @@ class WaitingCall final : public api::LeaseSeeker {
   const std::shared_ptr<UnaryCall<Response>> call_;
 };
 
+class ControlService final : public v1::ControlService::CallbackService {
+ public:
+  // `leases` must outlive this object.
+  explicit ControlService(const api::Leases& leases) : leases_(leases) {}
+
+  grpc::ServerUnaryReactor* AcquireLease(grpc::CallbackServerContext* context, const v1::AcquireLeaseRequest* request,
+                                         v1::AcquireLeaseResponse* response) override {
+    const auto call = UnaryCall<v1::AcquireLeaseResponse>::start(response);
+    leases_.acquire(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
+                    proto::to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
+    return call.get();
+  }
+
+  grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>* KeepLeaseAlive(
+      grpc::CallbackServerContext* context) override {
+    using Reactor = grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>;
+    auto keeping = leases_.keep_alive(to_call(*context));
+    if (!keeping) return new EndedStream<Reactor>(keeping.error());
+    return LeaseKeeping::start(*std::move(keeping));
+  }
+
+  grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context, const v1::ReleaseLeaseRequest* request,
+                                         v1::ReleaseLeaseResponse* response) override {
+    const auto call = UnaryCall<v1::ReleaseLeaseResponse>::start(response);
+    leases_.release(to_call(*context, request->context()), request->device(), answering(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* HandOverLease(grpc::CallbackServerContext* context, const v1::HandOverLeaseRequest* request,
+                                          v1::HandOverLeaseResponse* response) override {
+    const auto call = UnaryCall<v1::HandOverLeaseResponse>::start(response);
+    leases_.hand_over(to_call(*context, request->context()), request->device(), request->to(), answering(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* TakeOverLease(grpc::CallbackServerContext* context, const v1::TakeOverLeaseRequest* request,
+                                          v1::TakeOverLeaseResponse* response) override {
+    const auto call = UnaryCall<v1::TakeOverLeaseResponse>::start(response);
+    leases_.take_over(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
+                      std::make_shared<WaitingCall<v1::TakeOverLeaseResponse>>(call));
+    return call.get();
+  }
+
+  grpc::ServerWriteReactor<v1::WatchLeasesResponse>* WatchLeases(grpc::CallbackServerContext* context,
+                                                                 const v1::WatchLeasesRequest* request) override {
+    return serve<v1::WatchLeasesResponse>(
+        leases_.watch(to_call(*context), request->device()),
+        [](v1::WatchLeasesResponse& response, const api::Board& board) { response = proto::to_proto(*board); });
+  }
+
+  grpc::ServerUnaryReactor* Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
+                                  v1::RearmResponse* response) override {
+    const auto call = UnaryCall<v1::RearmResponse>::start(response);
+    leases_.rearm(to_call(*context, request->context()), request->device(),
+                  answering<std::vector<server::Latch>>(
+                      call, [](v1::RearmResponse& answer, const std::vector<server::Latch>& lifted) {
+                        answer = proto::to_proto(lifted);
+                      }));
+    return call.get();
+  }
+
+ private:
+  const api::Leases& leases_;
+};
+
 }  // namespace
 
-grpc::ServerUnaryReactor* ControlService::AcquireLease(grpc::CallbackServerContext* context,
-                                                       const v1::AcquireLeaseRequest* request,
-                                                       v1::AcquireLeaseResponse* response) {
-  const auto call = UnaryCall<v1::AcquireLeaseResponse>::start(response);
-  leases_.acquire(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
-                  proto::to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
-  return call.get();
-}
-
-grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>* ControlService::KeepLeaseAlive(
-    grpc::CallbackServerContext* context) {
-  using Reactor = grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>;
-  auto keeping = leases_.keep_alive(to_call(*context));
-  if (!keeping) return new EndedStream<Reactor>(keeping.error());
-  return LeaseKeeping::start(*std::move(keeping));
-}
-
-grpc::ServerUnaryReactor* ControlService::ReleaseLease(grpc::CallbackServerContext* context,
-                                                       const v1::ReleaseLeaseRequest* request,
-                                                       v1::ReleaseLeaseResponse* response) {
-  const auto call = UnaryCall<v1::ReleaseLeaseResponse>::start(response);
-  leases_.release(to_call(*context, request->context()), request->device(), answering(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* ControlService::HandOverLease(grpc::CallbackServerContext* context,
-                                                        const v1::HandOverLeaseRequest* request,
-                                                        v1::HandOverLeaseResponse* response) {
-  const auto call = UnaryCall<v1::HandOverLeaseResponse>::start(response);
-  leases_.hand_over(to_call(*context, request->context()), request->device(), request->to(), answering(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* ControlService::TakeOverLease(grpc::CallbackServerContext* context,
-                                                        const v1::TakeOverLeaseRequest* request,
-                                                        v1::TakeOverLeaseResponse* response) {
-  const auto call = UnaryCall<v1::TakeOverLeaseResponse>::start(response);
-  leases_.take_over(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
-                    std::make_shared<WaitingCall<v1::TakeOverLeaseResponse>>(call));
-  return call.get();
-}
-
-grpc::ServerWriteReactor<v1::WatchLeasesResponse>* ControlService::WatchLeases(grpc::CallbackServerContext* context,
-                                                                               const v1::WatchLeasesRequest* request) {
-  return serve<v1::WatchLeasesResponse>(
-      leases_.watch(to_call(*context), request->device()),
-      [](v1::WatchLeasesResponse& response, const api::Board& board) { response = proto::to_proto(*board); });
-}
-
-grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
-                                                v1::RearmResponse* response) {
-  const auto call = UnaryCall<v1::RearmResponse>::start(response);
-  leases_.rearm(to_call(*context, request->context()), request->device(),
-                answering<std::vector<server::Latch>>(
-                    call, [](v1::RearmResponse& answer, const std::vector<server::Latch>& lifted) {
-                      answer = proto::to_proto(lifted);
-                    }));
-  return call.get();
+std::unique_ptr<grpc::Service> control_service(const ServiceParts& parts) {
+  return std::make_unique<ControlService>(parts.api.leases);
 }
 
 }  // namespace axisgate::rpc

@@ -1,10 +1,13 @@
-#include "server/rpc/services/health_service.h"
+// gRPC's standard health service: SERVING as long as the daemon runs. DeviceService reports the state of devices.
+#include <grpc/health/v1/health.grpc.pb.h>
 
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "server/api/request/streams.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/ended_stream.h"
 #include "server/rpc/calls/pull_stream.h"
@@ -19,8 +22,9 @@ using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;
 
 // An empty name means the whole server.
-bool is_service(std::string_view name) {
-  return name.empty() || std::find(kApiServices.begin(), kApiServices.end(), name) != kApiServices.end();
+bool is_served(std::string_view name) {
+  return name.empty() ||
+         (is_of_api(name) && std::ranges::find(services(), name, &ServedService::name) != services().end());
 }
 
 // A HealthWatch sends one status, which never changes. The stream ends with the call, or when the caller's token ends.
@@ -53,26 +57,38 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
   bool reported_ = false;
 };
 
+class HealthService final : public grpc::health::v1::Health::CallbackService {
+ public:
+  explicit HealthService(api::Streams& streams) : streams_(streams) {}
+
+  grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext*, const HealthCheckRequest* request,
+                                  HealthCheckResponse* response) override {
+    const auto call = UnaryCall<HealthCheckResponse>::start(response);
+    if (!is_served(request->service())) {
+      return call->refuse({.reason = Reason::not_found, .message = "no service of that name is served here"});
+    }
+    call->answer([](HealthCheckResponse& answer) { answer.set_status(HealthCheckResponse::SERVING); });
+    return call.get();
+  }
+
+  grpc::ServerWriteReactor<HealthCheckResponse>* Watch(grpc::CallbackServerContext* context,
+                                                       const HealthCheckRequest* request) override {
+    Result<api::Streams::Place> place =
+        streams_.take(api::RequestKind::watch_server, api::name_of(credential_of(*context)));
+    if (!place) return new EndedStream<grpc::ServerWriteReactor<HealthCheckResponse>>(place.error());
+    const bool known = is_served(request->service());
+    return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,
+                              *std::move(place));
+  }
+
+ private:
+  api::Streams& streams_;
+};
+
 }  // namespace
 
-grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, const HealthCheckRequest* request,
-                                               HealthCheckResponse* response) {
-  const auto call = UnaryCall<HealthCheckResponse>::start(response);
-  if (!is_service(request->service())) {
-    return call->refuse({.reason = Reason::not_found, .message = "no service of that name is served here"});
-  }
-  call->answer([](HealthCheckResponse& answer) { answer.set_status(HealthCheckResponse::SERVING); });
-  return call.get();
-}
-
-grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext* context,
-                                                                    const HealthCheckRequest* request) {
-  Result<api::Streams::Place> place =
-      streams_.take(api::RequestKind::watch_server, api::name_of(credential_of(*context)));
-  if (!place) return new EndedStream<grpc::ServerWriteReactor<HealthCheckResponse>>(place.error());
-  const bool known = is_service(request->service());
-  return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,
-                            *std::move(place));
+std::unique_ptr<grpc::Service> health_service(const ServiceParts& parts) {
+  return std::make_unique<HealthService>(parts.api.streams);
 }
 
 }  // namespace axisgate::rpc
