@@ -8,7 +8,6 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -20,11 +19,6 @@
 #include "server/rpc/gate/refusals.h"
 #include "server/rpc/gate/rpc_metrics.h"
 #include "server/rpc/services.h"
-#include "server/rpc/services/mill_service.h"
-#include "server/rpc/services/position_service.h"
-#include "server/rpc/services/setting_service.h"
-#include "server/rpc/services/simulator_service.h"
-#include "server/rpc/services/stage_service.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -55,11 +49,6 @@ class GrpcDoor::Members {
   const HalfClose half_close_;
   RpcMetrics rpc_metrics_;
   std::vector<std::unique_ptr<grpc::Service>> services_;
-  StageService stage_;
-  SettingService settings_;
-  SimulatorService simulators_;
-  PositionService positions_;
-  MillService mills_;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> grpc_;                          // null before start()
   std::shared_ptr<grpc::health::v1::Health::Stub> own_client_;  // a client within this process
@@ -74,12 +63,7 @@ GrpcDoor::Members::Members(server::Gateway& gateway, api::Api& api)
       filter(api, rpc_metrics_, refusals),
       gateway_(gateway),
       half_close_(gateway),
-      rpc_metrics_(*gateway.metrics().registry()),
-      stage_(api.motions, api.paths, api.jogs, half_close_),
-      settings_(api.settings),
-      simulators_(api.simulators),
-      positions_(api.positions),
-      mills_(api.mill, half_close_) {
+      rpc_metrics_(*gateway.metrics().registry()) {
   for (const ServedService& service : services()) {
     if (service.make != nullptr) services_.push_back(service.make({gateway, api, half_close_}));
   }
@@ -103,10 +87,6 @@ void GrpcDoor::Members::build() {
   // gRPC would otherwise estimate the bandwidth and raise the length of frames, which the front bounds.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   for (const auto& service : services_) builder.RegisterService(service.get());
-  for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&stage_, &settings_, &simulators_, &positions_, &mills_}) {
-    builder.RegisterService(service);
-  }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(unreadable_interceptor());
   interceptors.push_back(refusals.interceptor());

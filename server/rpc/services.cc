@@ -9,17 +9,17 @@ namespace {
 
 constexpr std::array kServices = {
     ServedService{"axisgate.v1.DeviceService", device_service},
-    ServedService{"axisgate.v1.StageService"},
+    ServedService{"axisgate.v1.StageService", stage_service},
     ServedService{"axisgate.v1.EventService", event_service},
     ServedService{"axisgate.v1.HistoryService", history_service},
     ServedService{"axisgate.v1.CommandService", command_service},
     ServedService{"axisgate.v1.DiagnosticsService", diagnostics_service},
     ServedService{"axisgate.v1.ControlService", control_service},
     ServedService{"axisgate.v1.AccessService", access_service},
-    ServedService{"axisgate.v1.SettingService"},
-    ServedService{"axisgate.v1.SimulatorService"},
-    ServedService{"axisgate.v1.PositionService"},
-    ServedService{"axisgate.v1.MillService"},
+    ServedService{"axisgate.v1.SettingService", setting_service},
+    ServedService{"axisgate.v1.SimulatorService", simulator_service},
+    ServedService{"axisgate.v1.PositionService", position_service},
+    ServedService{"axisgate.v1.MillService", mill_service},
     ServedService{"grpc.health.v1.Health", health_service},
     ServedService{"grpc.reflection.v1alpha.ServerReflection"},
 };

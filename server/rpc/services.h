@@ -31,6 +31,11 @@ std::unique_ptr<grpc::Service> diagnostics_service(const ServiceParts& parts);
 std::unique_ptr<grpc::Service> event_service(const ServiceParts& parts);
 std::unique_ptr<grpc::Service> health_service(const ServiceParts& parts);
 std::unique_ptr<grpc::Service> history_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> mill_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> position_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> setting_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> simulator_service(const ServiceParts& parts);
+std::unique_ptr<grpc::Service> stage_service(const ServiceParts& parts);
 
 struct ServedService {
   std::string_view name;                                                        // "axisgate.v1.StageService"

@@ -1,12 +1,15 @@
-#include "server/rpc/services/mill_service.h"
-
+// MillService: jobs of mills. The front answers AbortJob (own_answers.h).
+#include "axisgate/v1/mill.grpc.pb.h"
+#include "server/api/mill/mill_subjects.h"
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
 #include "server/proto/mills.h"
 #include "server/rpc/calls/call.h"
+#include "server/rpc/calls/half_close.h"
 #include "server/rpc/calls/job_upload_run.h"
 #include "server/rpc/calls/subscribed_stream.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -32,129 +35,139 @@ api::Answer<api::CurrentRun> answering_with_run(std::shared_ptr<UnaryCall<Respon
   });
 }
 
+class MillService final : public v1::MillService::CallbackService {
+ public:
+  // The referenced objects must outlive this one.
+  MillService(const api::MillSubjects& mill, const HalfClose& half_close) : mill_(mill), half_close_(half_close) {}
+
+  grpc::ServerReadReactor<v1::SendJobRequest>* SendJob(grpc::CallbackServerContext* context,
+                                                       v1::SendJobResponse* response) override {
+    return JobUploadRun::start(mill_.sending, *context, half_close_, response);
+  }
+
+  grpc::ServerUnaryReactor* GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
+                                    v1::GetMillResponse* response) override {
+    const auto call = UnaryCall<v1::GetMillResponse>::start(response);
+    mill_.mills.get(to_call(*context), request->device(),
+                    answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
+                      *answer.mutable_mill() = proto::to_proto(state);
+                    }));
+    return call.get();
+  }
+
+  grpc::ServerWriteReactor<v1::WatchMillResponse>* WatchMill(grpc::CallbackServerContext* context,
+                                                             const v1::WatchMillRequest* request) override {
+    return serve<v1::WatchMillResponse>(mill_.mills.watch(to_call(*context), request->device()),
+                                        [](v1::WatchMillResponse& response, const api::MillState& state) {
+                                          *response.mutable_mill() = proto::to_proto(state);
+                                        });
+  }
+
+  grpc::ServerUnaryReactor* ConfirmJob(grpc::CallbackServerContext* context, const v1::ConfirmJobRequest* request,
+                                       v1::ConfirmJobResponse* response) override {
+    const auto call = UnaryCall<v1::ConfirmJobResponse>::start(response);
+    mill_.waiting.confirm(to_acting_call(*context, *request), request->job(), proto::to_setup(request->seen()),
+                          answering_with_job(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* StartJob(grpc::CallbackServerContext* context, const v1::StartJobRequest* request,
+                                     v1::StartJobResponse* response) override {
+    const auto call = UnaryCall<v1::StartJobResponse>::start(response);
+    mill_.starts.start(to_acting_call(*context, *request), request->job(),
+                       answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
+                         *answer.mutable_job() = proto::to_proto(job);
+                         if (job.run_on) *answer.mutable_run_on() = proto::to_proto(*job.run_on);
+                       }));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* PauseJob(grpc::CallbackServerContext* context, const v1::PauseJobRequest* request,
+                                     v1::PauseJobResponse* response) override {
+    const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
+    mill_.mills.pause(to_acting_call(*context, *request), request->device(), request->raise(),
+                      answering_with_run(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context, const v1::ResumeJobRequest* request,
+                                      v1::ResumeJobResponse* response) override {
+    const auto call = UnaryCall<v1::ResumeJobResponse>::start(response);
+    mill_.mills.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* RepeatJob(grpc::CallbackServerContext* context, const v1::RepeatJobRequest* request,
+                                      v1::RepeatJobResponse* response) override {
+    const auto call = UnaryCall<v1::RepeatJobResponse>::start(response);
+    mill_.sending.repeat(to_acting_call(*context, *request), request->job(), proto::to_repeat(*request),
+                         answering_with_job(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ContinueJob(grpc::CallbackServerContext* context, const v1::ContinueJobRequest* request,
+                                        v1::ContinueJobResponse* response) override {
+    const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
+    mill_.starts.choose_rest(to_acting_call(*context, *request), request->job(),
+                             proto::to_line(request->line(), request->column()), answering_with_job(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
+                                      v1::CancelJobResponse* response) override {
+    const auto call = UnaryCall<v1::CancelJobResponse>::start(response);
+    mill_.waiting.cancel(to_acting_call(*context, *request), request->job(),
+                         answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* CancelJobs(grpc::CallbackServerContext* context, const v1::CancelJobsRequest* request,
+                                       v1::CancelJobsResponse* response) override {
+    const auto call = UnaryCall<v1::CancelJobsResponse>::start(response);
+    mill_.waiting.cancel_all(
+        to_acting_call(*context, *request), request->device(), request->who(),
+        answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
+          for (const jobs::JobNumber job : cancelled.jobs) {
+            answer.add_jobs(api::job_name(cancelled.mill->name(), job));
+          }
+        }));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* MoveJob(grpc::CallbackServerContext* context, const v1::MoveJobRequest* request,
+                                    v1::MoveJobResponse* response) override {
+    const auto call = UnaryCall<v1::MoveJobResponse>::start(response);
+    mill_.waiting.move_first(to_acting_call(*context, *request), request->job(), answering_with_job(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ReportJobDone(grpc::CallbackServerContext* context, const v1::ReportJobDoneRequest* request,
+                                          v1::ReportJobDoneResponse* response) override {
+    const auto call = UnaryCall<v1::ReportJobDoneResponse>::start(response);
+    mill_.waiting.done(to_acting_call(*context, *request), request->job(),
+                       answering<api::CurrentJob>(call, [](v1::ReportJobDoneResponse&, const api::CurrentJob&) {}));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* OperateMill(grpc::CallbackServerContext* context, const v1::OperateMillRequest* request,
+                                        v1::OperateMillResponse* response) override {
+    const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
+    mill_.operation.operate(to_acting_call(*context, *request), request->device(), proto::to_hand_request(*request),
+                            answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
+                              *answer.mutable_longest() = proto::to_proto(longest);
+                            }));
+    return call.get();
+  }
+
+ private:
+  const api::MillSubjects& mill_;
+  const HalfClose& half_close_;
+};
+
 }  // namespace
 
-grpc::ServerReadReactor<v1::SendJobRequest>* MillService::SendJob(grpc::CallbackServerContext* context,
-                                                                  v1::SendJobResponse* response) {
-  return JobUploadRun::start(mill_.sending, *context, half_close_, response);
-}
-
-grpc::ServerUnaryReactor* MillService::GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
-                                               v1::GetMillResponse* response) {
-  const auto call = UnaryCall<v1::GetMillResponse>::start(response);
-  mill_.mills.get(to_call(*context), request->device(),
-                  answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
-                    *answer.mutable_mill() = proto::to_proto(state);
-                  }));
-  return call.get();
-}
-
-grpc::ServerWriteReactor<v1::WatchMillResponse>* MillService::WatchMill(grpc::CallbackServerContext* context,
-                                                                        const v1::WatchMillRequest* request) {
-  return serve<v1::WatchMillResponse>(mill_.mills.watch(to_call(*context), request->device()),
-                                      [](v1::WatchMillResponse& response, const api::MillState& state) {
-                                        *response.mutable_mill() = proto::to_proto(state);
-                                      });
-}
-
-grpc::ServerUnaryReactor* MillService::ConfirmJob(grpc::CallbackServerContext* context,
-                                                  const v1::ConfirmJobRequest* request,
-                                                  v1::ConfirmJobResponse* response) {
-  const auto call = UnaryCall<v1::ConfirmJobResponse>::start(response);
-  mill_.waiting.confirm(to_acting_call(*context, *request), request->job(), proto::to_setup(request->seen()),
-                        answering_with_job(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::StartJob(grpc::CallbackServerContext* context,
-                                                const v1::StartJobRequest* request, v1::StartJobResponse* response) {
-  const auto call = UnaryCall<v1::StartJobResponse>::start(response);
-  mill_.starts.start(to_acting_call(*context, *request), request->job(),
-                     answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
-                       *answer.mutable_job() = proto::to_proto(job);
-                       if (job.run_on) *answer.mutable_run_on() = proto::to_proto(*job.run_on);
-                     }));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::PauseJob(grpc::CallbackServerContext* context,
-                                                const v1::PauseJobRequest* request, v1::PauseJobResponse* response) {
-  const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
-  mill_.mills.pause(to_acting_call(*context, *request), request->device(), request->raise(), answering_with_run(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* context,
-                                                 const v1::ResumeJobRequest* request, v1::ResumeJobResponse* response) {
-  const auto call = UnaryCall<v1::ResumeJobResponse>::start(response);
-  mill_.mills.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::RepeatJob(grpc::CallbackServerContext* context,
-                                                 const v1::RepeatJobRequest* request, v1::RepeatJobResponse* response) {
-  const auto call = UnaryCall<v1::RepeatJobResponse>::start(response);
-  mill_.sending.repeat(to_acting_call(*context, *request), request->job(), proto::to_repeat(*request),
-                       answering_with_job(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::ContinueJob(grpc::CallbackServerContext* context,
-                                                   const v1::ContinueJobRequest* request,
-                                                   v1::ContinueJobResponse* response) {
-  const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
-  mill_.starts.choose_rest(to_acting_call(*context, *request), request->job(),
-                           proto::to_line(request->line(), request->column()), answering_with_job(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::CancelJob(grpc::CallbackServerContext* context,
-                                                 const v1::CancelJobRequest* request, v1::CancelJobResponse* response) {
-  const auto call = UnaryCall<v1::CancelJobResponse>::start(response);
-  mill_.waiting.cancel(to_acting_call(*context, *request), request->job(),
-                       answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::CancelJobs(grpc::CallbackServerContext* context,
-                                                  const v1::CancelJobsRequest* request,
-                                                  v1::CancelJobsResponse* response) {
-  const auto call = UnaryCall<v1::CancelJobsResponse>::start(response);
-  mill_.waiting.cancel_all(
-      to_acting_call(*context, *request), request->device(), request->who(),
-      answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
-        for (const jobs::JobNumber job : cancelled.jobs) {
-          answer.add_jobs(api::job_name(cancelled.mill->name(), job));
-        }
-      }));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::MoveJob(grpc::CallbackServerContext* context, const v1::MoveJobRequest* request,
-                                               v1::MoveJobResponse* response) {
-  const auto call = UnaryCall<v1::MoveJobResponse>::start(response);
-  mill_.waiting.move_first(to_acting_call(*context, *request), request->job(), answering_with_job(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::ReportJobDone(grpc::CallbackServerContext* context,
-                                                     const v1::ReportJobDoneRequest* request,
-                                                     v1::ReportJobDoneResponse* response) {
-  const auto call = UnaryCall<v1::ReportJobDoneResponse>::start(response);
-  mill_.waiting.done(to_acting_call(*context, *request), request->job(),
-                     answering<api::CurrentJob>(call, [](v1::ReportJobDoneResponse&, const api::CurrentJob&) {}));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* MillService::OperateMill(grpc::CallbackServerContext* context,
-                                                   const v1::OperateMillRequest* request,
-                                                   v1::OperateMillResponse* response) {
-  const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
-  mill_.operation.operate(to_acting_call(*context, *request), request->device(), proto::to_hand_request(*request),
-                          answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
-                            *answer.mutable_longest() = proto::to_proto(longest);
-                          }));
-  return call.get();
+std::unique_ptr<grpc::Service> mill_service(const ServiceParts& parts) {
+  return std::make_unique<MillService>(parts.api.mill, parts.half_close);
 }
 
 }  // namespace axisgate::rpc

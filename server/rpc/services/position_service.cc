@@ -1,57 +1,73 @@
-#include "server/rpc/services/position_service.h"
-
+// PositionService: saved positions of a stage.
 #include <optional>
 #include <vector>
 
+#include "axisgate/v1/position.grpc.pb.h"
+#include "server/api/stage/positions.h"
 #include "server/proto/positions.h"
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
+namespace {
 
-grpc::ServerUnaryReactor* PositionService::SavePosition(grpc::CallbackServerContext* context,
-                                                        const v1::SavePositionRequest* request,
-                                                        v1::SavePositionResponse* response) {
-  using Saved = std::optional<api::NamedPosition>;
-  const auto call = UnaryCall<v1::SavePositionResponse>::start(response);
-  positions_.save(to_checked_call(*context, *request), request->name(), proto::to_wish(*request),
-                  answering<Saved>(call, [](v1::SavePositionResponse& answer, const Saved& saved) {
-                    if (saved) *answer.mutable_position() = proto::to_proto(*saved);
-                  }));
-  return call.get();
-}
+class PositionService final : public v1::PositionService::CallbackService {
+ public:
+  // `positions` must outlive this object.
+  explicit PositionService(const api::Positions& positions) : positions_(positions) {}
 
-grpc::ServerUnaryReactor* PositionService::ListPositions(grpc::CallbackServerContext* context,
-                                                         const v1::ListPositionsRequest* request,
-                                                         v1::ListPositionsResponse* response) {
-  using Positions = std::vector<api::NamedPosition>;
-  const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
-  positions_.list(to_call(*context), request->device(),
-                  answering<Positions>(call, [](v1::ListPositionsResponse& answer, const Positions& positions) {
-                    for (const auto& position : positions) *answer.add_positions() = proto::to_proto(position);
-                  }));
-  return call.get();
-}
+  grpc::ServerUnaryReactor* SavePosition(grpc::CallbackServerContext* context, const v1::SavePositionRequest* request,
+                                         v1::SavePositionResponse* response) override {
+    using Saved = std::optional<api::NamedPosition>;
+    const auto call = UnaryCall<v1::SavePositionResponse>::start(response);
+    positions_.save(to_checked_call(*context, *request), request->name(), proto::to_wish(*request),
+                    answering<Saved>(call, [](v1::SavePositionResponse& answer, const Saved& saved) {
+                      if (saved) *answer.mutable_position() = proto::to_proto(*saved);
+                    }));
+    return call.get();
+  }
 
-grpc::ServerUnaryReactor* PositionService::DeletePosition(grpc::CallbackServerContext* context,
-                                                          const v1::DeletePositionRequest* request,
-                                                          v1::DeletePositionResponse* response) {
-  const auto call = UnaryCall<v1::DeletePositionResponse>::start(response);
-  positions_.remove(to_checked_call(*context, *request), request->name(), answering(call));
-  return call.get();
-}
+  grpc::ServerUnaryReactor* ListPositions(grpc::CallbackServerContext* context, const v1::ListPositionsRequest* request,
+                                          v1::ListPositionsResponse* response) override {
+    using Positions = std::vector<api::NamedPosition>;
+    const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
+    positions_.list(to_call(*context), request->device(),
+                    answering<Positions>(call, [](v1::ListPositionsResponse& answer, const Positions& positions) {
+                      for (const auto& position : positions) *answer.add_positions() = proto::to_proto(position);
+                    }));
+    return call.get();
+  }
 
-grpc::ServerUnaryReactor* PositionService::MoveToPosition(grpc::CallbackServerContext* context,
-                                                          const v1::MoveToPositionRequest* request,
-                                                          v1::MoveToPositionResponse* response) {
-  const auto call = UnaryCall<v1::MoveToPositionResponse>::start(response);
-  positions_.move_to(
-      to_checked_call(*context, *request), request->name(),
-      answering<api::StartedMotion>(call, [](v1::MoveToPositionResponse& answer, const api::StartedMotion& motion) {
-        if (motion) *answer.mutable_motion() = proto::to_proto(*motion);
-      }));
-  return call.get();
+  grpc::ServerUnaryReactor* DeletePosition(grpc::CallbackServerContext* context,
+                                           const v1::DeletePositionRequest* request,
+                                           v1::DeletePositionResponse* response) override {
+    const auto call = UnaryCall<v1::DeletePositionResponse>::start(response);
+    positions_.remove(to_checked_call(*context, *request), request->name(), answering(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* MoveToPosition(grpc::CallbackServerContext* context,
+                                           const v1::MoveToPositionRequest* request,
+                                           v1::MoveToPositionResponse* response) override {
+    const auto call = UnaryCall<v1::MoveToPositionResponse>::start(response);
+    positions_.move_to(
+        to_checked_call(*context, *request), request->name(),
+        answering<api::StartedMotion>(call, [](v1::MoveToPositionResponse& answer, const api::StartedMotion& motion) {
+          if (motion) *answer.mutable_motion() = proto::to_proto(*motion);
+        }));
+    return call.get();
+  }
+
+ private:
+  const api::Positions& positions_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> position_service(const ServiceParts& parts) {
+  return std::make_unique<PositionService>(parts.api.positions);
 }
 
 }  // namespace axisgate::rpc

@@ -1,54 +1,70 @@
-#include "server/rpc/services/setting_service.h"
-
+// SettingService: settings of a controller other than its motion.
+#include "axisgate/v1/settings.grpc.pb.h"
+#include "server/api/stage/settings.h"
 #include "server/proto/settings.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
+namespace {
 
-grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContext* context,
-                                                      const v1::GetSettingsRequest* request,
-                                                      v1::GetSettingsResponse* response) {
-  const auto call = UnaryCall<v1::GetSettingsResponse>::start(response);
-  settings_.get(to_call(*context), request->device(),
-                answering<stage::Settings>(call, [](v1::GetSettingsResponse& answer, const stage::Settings& settings) {
-                  *answer.mutable_settings() = proto::to_proto(settings);
-                }));
-  return call.get();
-}
+class SettingService final : public v1::SettingService::CallbackService {
+ public:
+  // `settings` must outlive this object.
+  explicit SettingService(const api::Settings& settings) : settings_(settings) {}
 
-grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerContext* context,
-                                                         const v1::ChangeSettingsRequest* request,
-                                                         v1::ChangeSettingsResponse* response) {
-  const auto call = UnaryCall<v1::ChangeSettingsResponse>::start(response);
-  settings_.change(to_checked_call(*context, *request), request->device(), proto::to_change(request->settings()),
-                   answering(call));
-  return call.get();
-}
+  grpc::ServerUnaryReactor* GetSettings(grpc::CallbackServerContext* context, const v1::GetSettingsRequest* request,
+                                        v1::GetSettingsResponse* response) override {
+    const auto call = UnaryCall<v1::GetSettingsResponse>::start(response);
+    settings_.get(
+        to_call(*context), request->device(),
+        answering<stage::Settings>(call, [](v1::GetSettingsResponse& answer, const stage::Settings& settings) {
+          *answer.mutable_settings() = proto::to_proto(settings);
+        }));
+    return call.get();
+  }
 
-grpc::ServerUnaryReactor* SettingService::SetCoordinates(grpc::CallbackServerContext* context,
-                                                         const v1::SetCoordinatesRequest* request,
-                                                         v1::SetCoordinatesResponse* response) {
-  const auto call = UnaryCall<v1::SetCoordinatesResponse>::start(response);
-  settings_.set_coordinates(to_checked_call(*context, *request), request->device(), proto::to_coordinates(*request),
-                            answering(call));
-  return call.get();
-}
+  grpc::ServerUnaryReactor* ChangeSettings(grpc::CallbackServerContext* context,
+                                           const v1::ChangeSettingsRequest* request,
+                                           v1::ChangeSettingsResponse* response) override {
+    const auto call = UnaryCall<v1::ChangeSettingsResponse>::start(response);
+    settings_.change(to_checked_call(*context, *request), request->device(), proto::to_change(request->settings()),
+                     answering(call));
+    return call.get();
+  }
 
-grpc::ServerUnaryReactor* SettingService::FireTrigger(grpc::CallbackServerContext* context,
-                                                      const v1::FireTriggerRequest* request,
-                                                      v1::FireTriggerResponse* response) {
-  const auto call = UnaryCall<v1::FireTriggerResponse>::start(response);
-  settings_.fire_trigger(to_checked_call(*context, *request), request->device(), answering(call));
-  return call.get();
-}
+  grpc::ServerUnaryReactor* SetCoordinates(grpc::CallbackServerContext* context,
+                                           const v1::SetCoordinatesRequest* request,
+                                           v1::SetCoordinatesResponse* response) override {
+    const auto call = UnaryCall<v1::SetCoordinatesResponse>::start(response);
+    settings_.set_coordinates(to_checked_call(*context, *request), request->device(), proto::to_coordinates(*request),
+                              answering(call));
+    return call.get();
+  }
 
-grpc::ServerUnaryReactor* SettingService::ResetDevice(grpc::CallbackServerContext* context,
-                                                      const v1::ResetDeviceRequest* request,
-                                                      v1::ResetDeviceResponse* response) {
-  const auto call = UnaryCall<v1::ResetDeviceResponse>::start(response);
-  settings_.reset(to_checked_call(*context, *request), request->device(), answering(call));
-  return call.get();
+  grpc::ServerUnaryReactor* FireTrigger(grpc::CallbackServerContext* context, const v1::FireTriggerRequest* request,
+                                        v1::FireTriggerResponse* response) override {
+    const auto call = UnaryCall<v1::FireTriggerResponse>::start(response);
+    settings_.fire_trigger(to_checked_call(*context, *request), request->device(), answering(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ResetDevice(grpc::CallbackServerContext* context, const v1::ResetDeviceRequest* request,
+                                        v1::ResetDeviceResponse* response) override {
+    const auto call = UnaryCall<v1::ResetDeviceResponse>::start(response);
+    settings_.reset(to_checked_call(*context, *request), request->device(), answering(call));
+    return call.get();
+  }
+
+ private:
+  const api::Settings& settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> setting_service(const ServiceParts& parts) {
+  return std::make_unique<SettingService>(parts.api.settings);
 }
 
 }  // namespace axisgate::rpc

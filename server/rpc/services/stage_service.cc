@@ -1,15 +1,20 @@
-#include "server/rpc/services/stage_service.h"
-
+// StageService: motion. The front answers stops (call_filter.h).
 #include <vector>
 
+#include "axisgate/v1/stage.grpc.pb.h"
+#include "server/api/stage/jogs.h"
+#include "server/api/stage/motions.h"
+#include "server/api/stage/paths.h"
 #include "server/proto/amounts.h"
 #include "server/proto/targets.h"
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
+#include "server/rpc/calls/half_close.h"
 #include "server/rpc/calls/jog_run.h"
 #include "server/rpc/calls/path_run.h"
 #include "server/rpc/calls/subscribed_stream.h"
 #include "server/rpc/calls/unary_call.h"
+#include "server/rpc/services.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -21,91 +26,106 @@ api::Answer<api::StartedMotion> answering_with_motion(std::shared_ptr<UnaryCall<
   });
 }
 
+class StageService final : public v1::StageService::CallbackService {
+ public:
+  // The referenced objects must outlive this one.
+  StageService(const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs, const HalfClose& half_close)
+      : motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
+
+  grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
+                                 v1::MoveResponse* response) override {
+    const auto call = UnaryCall<v1::MoveResponse>::start(response);
+    motions_.move(to_checked_call(*context, *request), request->device(), proto::to_move(*request),
+                  answering_with_motion(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* Home(grpc::CallbackServerContext* context, const v1::HomeRequest* request,
+                                 v1::HomeResponse* response) override {
+    const auto call = UnaryCall<v1::HomeResponse>::start(response);
+    motions_.home(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
+                  answering_with_motion(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ReturnToOrigin(grpc::CallbackServerContext* context,
+                                           const v1::ReturnToOriginRequest* request,
+                                           v1::ReturnToOriginResponse* response) override {
+    const auto call = UnaryCall<v1::ReturnToOriginResponse>::start(response);
+    motions_.return_to_origin(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
+                              answering_with_motion(call));
+    return call.get();
+  }
+
+  grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>* RunPath(
+      grpc::CallbackServerContext* context) override {
+    auto path = paths_.open(credential_of(*context));
+    if (!path) return new EndedStream<grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>>(path.error());
+    return PathRun::start(*std::move(path), *context, half_close_);
+  }
+
+  grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
+                                 v1::ScanResponse* response) override {
+    const auto call = UnaryCall<v1::ScanResponse>::start(response);
+    motions_.scan(to_checked_call(*context, *request), request->device(), proto::to_scan(*request),
+                  answering_with_motion(call));
+    return call.get();
+  }
+
+  grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* Jog(grpc::CallbackServerContext* context) override {
+    auto jog = jogs_.open(credential_of(*context));
+    if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
+    return JogRun::start(*std::move(jog), *context, half_close_);
+  }
+
+  grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const v1::GetMotionRequest* request,
+                                      v1::GetMotionResponse* response) override {
+    const auto call = UnaryCall<v1::GetMotionResponse>::start(response);
+    motions_.get(
+        to_call(*context), request->name(),
+        answering<api::CurrentMotion>(call, [](v1::GetMotionResponse& answer, const api::CurrentMotion& motion) {
+          *answer.mutable_motion() = proto::to_proto(motion);
+        }));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* ListMotions(grpc::CallbackServerContext* context, const v1::ListMotionsRequest* request,
+                                        v1::ListMotionsResponse* response) override {
+    using Motions = std::vector<api::CurrentMotion>;
+    const auto call = UnaryCall<v1::ListMotionsResponse>::start(response);
+    motions_.list(to_call(*context), request->device(),
+                  answering<Motions>(call, [](v1::ListMotionsResponse& answer, const Motions& motions) {
+                    for (const api::CurrentMotion& motion : motions) *answer.add_motions() = proto::to_proto(motion);
+                  }));
+    return call.get();
+  }
+
+  grpc::ServerWriteReactor<v1::WatchMotionResponse>* WatchMotion(grpc::CallbackServerContext* context,
+                                                                 const v1::WatchMotionRequest* request) override {
+    return serve<v1::WatchMotionResponse>(motions_.watch(to_call(*context), request->name()),
+                                          [](v1::WatchMotionResponse& response, const api::CurrentMotion& motion) {
+                                            *response.mutable_motion() = proto::to_proto(motion);
+                                          });
+  }
+
+  grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const v1::CancelMotionRequest* request,
+                                         v1::CancelMotionResponse* response) override {
+    const auto call = UnaryCall<v1::CancelMotionResponse>::start(response);
+    motions_.cancel(to_call(*context, request->context()), request->name(), answering(call));
+    return call.get();
+  }
+
+ private:
+  const api::Motions& motions_;
+  const api::Paths& paths_;
+  const api::Jogs& jogs_;
+  const HalfClose& half_close_;
+};
+
 }  // namespace
 
-grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
-                                             v1::MoveResponse* response) {
-  const auto call = UnaryCall<v1::MoveResponse>::start(response);
-  motions_.move(to_checked_call(*context, *request), request->device(), proto::to_move(*request),
-                answering_with_motion(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* StageService::Home(grpc::CallbackServerContext* context, const v1::HomeRequest* request,
-                                             v1::HomeResponse* response) {
-  const auto call = UnaryCall<v1::HomeResponse>::start(response);
-  motions_.home(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
-                answering_with_motion(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* StageService::ReturnToOrigin(grpc::CallbackServerContext* context,
-                                                       const v1::ReturnToOriginRequest* request,
-                                                       v1::ReturnToOriginResponse* response) {
-  const auto call = UnaryCall<v1::ReturnToOriginResponse>::start(response);
-  motions_.return_to_origin(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
-                            answering_with_motion(call));
-  return call.get();
-}
-
-grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>* StageService::RunPath(
-    grpc::CallbackServerContext* context) {
-  auto path = paths_.open(credential_of(*context));
-  if (!path) return new EndedStream<grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>>(path.error());
-  return PathRun::start(*std::move(path), *context, half_close_);
-}
-
-grpc::ServerUnaryReactor* StageService::Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
-                                             v1::ScanResponse* response) {
-  const auto call = UnaryCall<v1::ScanResponse>::start(response);
-  motions_.scan(to_checked_call(*context, *request), request->device(), proto::to_scan(*request),
-                answering_with_motion(call));
-  return call.get();
-}
-
-grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* StageService::Jog(grpc::CallbackServerContext* context) {
-  auto jog = jogs_.open(credential_of(*context));
-  if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
-  return JogRun::start(*std::move(jog), *context, half_close_);
-}
-
-grpc::ServerUnaryReactor* StageService::GetMotion(grpc::CallbackServerContext* context,
-                                                  const v1::GetMotionRequest* request,
-                                                  v1::GetMotionResponse* response) {
-  const auto call = UnaryCall<v1::GetMotionResponse>::start(response);
-  motions_.get(to_call(*context), request->name(),
-               answering<api::CurrentMotion>(call, [](v1::GetMotionResponse& answer, const api::CurrentMotion& motion) {
-                 *answer.mutable_motion() = proto::to_proto(motion);
-               }));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* StageService::ListMotions(grpc::CallbackServerContext* context,
-                                                    const v1::ListMotionsRequest* request,
-                                                    v1::ListMotionsResponse* response) {
-  using Motions = std::vector<api::CurrentMotion>;
-  const auto call = UnaryCall<v1::ListMotionsResponse>::start(response);
-  motions_.list(to_call(*context), request->device(),
-                answering<Motions>(call, [](v1::ListMotionsResponse& answer, const Motions& motions) {
-                  for (const api::CurrentMotion& motion : motions) *answer.add_motions() = proto::to_proto(motion);
-                }));
-  return call.get();
-}
-
-grpc::ServerWriteReactor<v1::WatchMotionResponse>* StageService::WatchMotion(grpc::CallbackServerContext* context,
-                                                                             const v1::WatchMotionRequest* request) {
-  return serve<v1::WatchMotionResponse>(motions_.watch(to_call(*context), request->name()),
-                                        [](v1::WatchMotionResponse& response, const api::CurrentMotion& motion) {
-                                          *response.mutable_motion() = proto::to_proto(motion);
-                                        });
-}
-
-grpc::ServerUnaryReactor* StageService::CancelMotion(grpc::CallbackServerContext* context,
-                                                     const v1::CancelMotionRequest* request,
-                                                     v1::CancelMotionResponse* response) {
-  const auto call = UnaryCall<v1::CancelMotionResponse>::start(response);
-  motions_.cancel(to_call(*context, request->context()), request->name(), answering(call));
-  return call.get();
+std::unique_ptr<grpc::Service> stage_service(const ServiceParts& parts) {
+  return std::make_unique<StageService>(parts.api.motions, parts.api.paths, parts.api.jogs, parts.half_close);
 }
 
 }  // namespace axisgate::rpc
