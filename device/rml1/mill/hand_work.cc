@@ -67,9 +67,10 @@ Duration HandWork::write(const HandCommands& words, TimePoint now) {
   return done_at_ - now;
 }
 
-// An abort ends the acts before it when it arrives, which may be long after somebody requested it.
+// An abort ends the acts before it. It may leave long after somebody requested it, but what leaves after it also
+// arrives after it.
 TimePoint HandWork::done_by() const {
-  return written_at_ < abort_.left_at() ? std::min(done_at_, abort_.arrived_by()) : done_at_;
+  return written_at_ < abort_.left_at() ? std::min(done_at_, abort_.left_at()) : done_at_;
 }
 
 }  // namespace axisgate::rml1
