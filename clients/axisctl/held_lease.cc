@@ -23,7 +23,8 @@ v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std
   v1::LeaseTerms wanted;
   for (const int axis : find_axes(device, axes)) wanted.add_axes(axis);
   // A command with --wait ends like one without: after Ctrl-C its motion runs to its end.
-  wanted.set_at_loss(session.options.verb == Verb::lease_run ? at_loss(session.options.at_loss) : v1::AT_LOSS_FINISH);
+  wanted.set_at_loss(session.options.old_verb == OldVerb::lease_run ? at_loss(session.options.at_loss)
+                                                                    : v1::AT_LOSS_FINISH);
   wanted.set_purpose(session.options.purpose);
   return wanted;
 }

@@ -292,17 +292,20 @@ std::span<const HelpTopic> help_topics() { return kTopics; }
 
 std::string help_text(std::string_view topic) {
   const auto found = std::ranges::find(kTopics, topic, &HelpTopic::name);
-  if (found == std::end(kTopics)) return "";
-  std::string text(found->text);
-  if (!text.empty()) text += "\n\n";
-  text += found->examples.find('\n') == std::string_view::npos ? "Example:" : "Examples:";
-  std::string_view rest = found->examples;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    text += fmt::format("\n  {}", rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  return found == std::end(kTopics) ? "" : text_of(found->text, found->examples);
+}
+
+std::string text_of(std::string_view text, std::string_view examples) {
+  std::string all(text);
+  if (examples.empty()) return all;
+  if (!all.empty()) all += "\n\n";
+  all += examples.find('\n') == std::string_view::npos ? "Example:" : "Examples:";
+  while (!examples.empty()) {
+    const std::size_t end = std::min(examples.find('\n'), examples.size());
+    all += fmt::format("\n  {}", examples.substr(0, end));
+    examples.remove_prefix(std::min(end + 1, examples.size()));
   }
-  return text;
+  return all;
 }
 
 }  // namespace axisgate::axisctl

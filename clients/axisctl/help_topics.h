@@ -20,4 +20,7 @@ std::span<const HelpTopic> help_topics();
 // Returns the text, then the examples; empty if there is no such topic.
 std::string help_text(std::string_view topic);
 
+// Returns the text, then the examples. Both may be empty.
+std::string text_of(std::string_view text, std::string_view examples);
+
 }  // namespace axisgate::axisctl

@@ -9,24 +9,10 @@
 
 namespace axisgate::axisctl {
 
-enum class Verb {
-  devices,
-  status,
-  position,
-  home,
-  move,
-  path,
-  line,
-  arc,
-  scan,
-  jog,
-  stop,
-  estop,
-  withdraw,
-  clear,
-  exec,
+struct Verb;
+
+enum class OldVerb {
   watch,
-  commands,
   record,
   replay,
   sim,
@@ -65,8 +51,6 @@ enum class Verb {
   go,
   forget,
   history,
-  motions,
-  cancel,
   audit_verify,
   audit_erase,
   mill_check,
@@ -139,8 +123,9 @@ struct Options {
   Target target;
   std::string device;  // "devices/stage"; empty: the only device
   bool json = false;
-  std::string request_id;  // request id of mutations; empty: a new id for each
-  Verb verb = Verb::devices;
+  std::string request_id;      // request id of mutations; empty: a new id for each
+  const Verb* verb = nullptr;  // the verb that was requested
+  OldVerb old_verb{};          // if verb is null
 
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names of axes
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
@@ -195,8 +180,8 @@ struct Options {
   JobOptions job;
 };
 
-// Returns the options. Returns an exit code if axisctl must exit at once: help was shown, or an error in the usage was
-// printed.
+// Returns the options, with a verb. Returns an exit code if axisctl must exit at once: help was shown, or an error in
+// the usage was printed.
 std::variant<Options, int> parse_options(int argument_count, char** arguments);
 
 }  // namespace axisgate::axisctl

@@ -22,8 +22,8 @@ std::string scan_of(const v1::Device& device, const v1::Motion& motion) {
   return "; " + scan_text(find_axis(device, std::to_string(motion.axes(0))), motion.scan());
 }
 
-Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
-  Failure failure = axisctl::to_failure(motion.problem());
+Failure failure_of_motion(const v1::Device& device, const v1::Motion& motion) {
+  Failure failure = to_failure(motion.problem());
   failure.exit_code = kFailed;
   if (!motion.has_problem()) failure = {kFailed, state_name(motion.state()), "the motion did not succeed", ""};
   if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now " + ends;
@@ -91,7 +91,7 @@ int report_outcome(const Session& session, const v1::Device& device, const v1::M
     *outcome.mutable_motion() = motion;
     print_json(outcome);
   }
-  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(device, motion);
+  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw failure_of_motion(device, motion);
   if (!session.options.json) print_line("done: " + ends_text(device, motion) + scan_of(device, motion));
   return kDone;
 }

@@ -1,9 +1,6 @@
-// Functions shared by options.cc and its groups of verbs.
+// Options that several verbs have.
 #pragma once
 
-#include <optional>
-
-#include "clients/axisctl/failure.h"
 #include "clients/axisctl/options.h"
 
 namespace CLI {
@@ -12,23 +9,26 @@ class App;
 
 namespace axisgate::axisctl {
 
-// Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
-CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description);
-
-// Adds the option --wait.
+// Adds the option --wait. Verbs with Verb::waits have it without this call.
 void add_wait(CLI::App& verb, Options& options);
 
 // Adds the optional argument AXES.
 void add_axes(CLI::App& verb, Options& options);
 
-// Returns an error for the first parsed argument that is not UTF-8; nullopt if all are. Defined in option_bytes.cc.
-std::optional<Failure> not_utf8(const CLI::App& app, Verb verb);
+// Adds the flag --no-wait.
+void add_waiting(CLI::App& verb, Options& options);
 
-// Defined in setting_options.cc.
-void add_setting_verbs(CLI::App& app, Options& options);
+// Adds the options --speed and --acceleration-ms. `description` is that of --speed.
+void add_speed(CLI::App& verb, Options& options, const char* description);
+
+// Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
+CLI::App* add_verb(CLI::App& app, Options& options, OldVerb verb, const char* name, const char* description);
 
 // Defined in history_options.cc.
 void add_history_verbs(CLI::App& app, Options& options);
+
+// Defined in setting_options.cc.
+void add_setting_verbs(CLI::App& app, Options& options);
 
 // Defined in mill_options.cc.
 void add_mill_verbs(CLI::App& app, Options& options);

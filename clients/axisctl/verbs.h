@@ -1,26 +1,24 @@
 // Functions that run the verbs, one each. Each returns its exit code, or throws Failure.
 #pragma once
 
+#include <span>
+
 #include "clients/axisctl/session.h"
+#include "clients/axisctl/verb.h"
 
 namespace axisgate::axisctl {
 
-int devices(const Session& session);
-int status(const Session& session);
-int position(const Session& session);
-int clear(const Session& session);
-int commands(const Session& session);
-int home(const Session& session);
-int move(const Session& session);
-int path(const Session& session);
-int line(const Session& session);
-int arc(const Session& session);
-int scan(const Session& session);
-int jog(const Session& session);
-int stop(const Session& session);
-int emergency_stop(const Session& session);
-int withdraw_stop(const Session& session);
-int execute(const Session& session);
+std::span<const Verb> device_verbs();
+std::span<const Verb> motion_verbs();
+std::span<const Verb> path_verbs();
+std::span<const Verb> scan_verbs();
+std::span<const Verb> jog_verbs();
+std::span<const Verb> stop_verbs();
+std::span<const Verb> cancel_verbs();
+std::span<const Verb> clear_verbs();
+std::span<const Verb> motions_verbs();
+std::span<const Verb> command_verbs();
+
 int watch(const Session& session);
 int record(const Session& session);
 int replay(const Session& session);
@@ -60,8 +58,6 @@ int list_positions(const Session& session);
 int go_to_position(const Session& session);
 int forget_position(const Session& session);
 int history(const Session& session);
-int motions(const Session& session);
-int cancel(const Session& session);
 int audit_verify(const Session& session);
 int audit_erase(const Session& session);
 int mill_send(const Session& session);

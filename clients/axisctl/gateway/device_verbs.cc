@@ -1,4 +1,4 @@
-// devices, status, position, clear, commands: show the devices and their state; clear errors.
+// devices, status, position: show the devices and their state.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <google/protobuf/util/time_util.h>
@@ -32,7 +32,7 @@ std::string link_text(const v1::Device& device) {
 std::string_view known(bool is_known, bool value) { return !is_known ? "?" : value ? "yes" : "no"; }
 
 // Returns S, F and R as parameters of D: (manual 89)), in pulses/s and ms; ? if unknown.
-std::string speed_text(const v1::Axis& axis) {
+std::string speed_parameters(const v1::Axis& axis) {
   if (!axis.has_minimum_speed() || !axis.has_maximum_speed() || !axis.has_acceleration_ms()) return "?";
   return fmt::format("S{}F{}R{}", axis.minimum_speed(), axis.maximum_speed(), axis.acceleration_ms());
 }
@@ -43,7 +43,7 @@ std::string axis_text(const v1::Axis& axis) {
   return fmt::format("axis {}  {}{}  busy {}  excited {}  homed {}  status {}  speed {}{}", axis.number(), name,
                      position_text(axis), known(axis.has_busy(), axis.busy()),
                      known(axis.has_excited(), axis.excited()), known(true, axis.homed()), status_text(axis),
-                     speed_text(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
+                     speed_parameters(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
 }
 
 std::string ago(const google::protobuf::Timestamp& time) {
@@ -89,22 +89,6 @@ void print_status(const v1::Device& device) {
   if (!device.has_age()) print_line("never read");
 }
 
-v1::ListCommandsResponse command_table(const Session& session) {
-  v1::ListCommandsRequest request;
-  request.set_device(chosen_device(session).name());
-  return session.connection.call(session.connection.commands, &v1::CommandService::Stub::ListCommands, request,
-                                 kQuestionLimit);
-}
-
-void print_command(const v1::Command& command, bool with_parameters) {
-  print_line(fmt::format("{:<8} {:<28} {}", command.name(), command.format(), command.description()));
-  if (!with_parameters) return;
-  for (const std::string& parameter : command.parameters()) print_line("         " + parameter);
-  print_line(fmt::format("         manual {}{}", command.section(), command.moves() ? "; may start motion" : ""));
-}
-
-}  // namespace
-
 int devices(const Session& session) {
   const v1::ListDevicesResponse answer = session.connection.call(
       session.connection.devices, &v1::DeviceService::Stub::ListDevices, v1::ListDevicesRequest(), kQuestionLimit);
@@ -148,41 +132,27 @@ int position(const Session& session) {
   return kDone;
 }
 
-int clear(const Session& session) {
-  const v1::Device device = chosen_device(session);
-  v1::ClearErrorsRequest request;
-  *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(device.name());
-  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
-  const v1::ClearErrorsResponse response = session.connection.call(
-      session.connection.devices, &v1::DeviceService::Stub::ClearErrors, request, kQuestionLimit);
-  if (session.options.json) {
-    print_json(response);
-    return kDone;
-  }
-  print_line("cleared; after an emergency stop the motors may be off: axisctl status");
-  if (chosen_device(session).has_emergency_latch()) {
-    print_line("the emergency stop remains, and nothing moves: `axisctl clear` without axes ends it");
-  }
-  return kDone;
-}
+constexpr Verb kDeviceVerbs[] = {
+    {.words = "devices",
+     .heading = Heading::looking,
+     .description = "show the configured devices",
+     .examples = "axisctl devices",
+     .run = devices},
+    {.words = "status",
+     .heading = Heading::looking,
+     .description = "show the serial connection, the controller and the axes",
+     .help = "In the output, `?` means that the value is not known, e.g. because it was not read yet.",
+     .examples = "axisctl status\naxisctl --json status",
+     .run = status},
+    {.words = "position",
+     .heading = Heading::looking,
+     .description = "read and show the present positions of the axes",
+     .examples = "axisctl position",
+     .run = position},
+};
 
-int commands(const Session& session) {
-  const std::string& wanted = session.options.command;
-  bool found = false;
-  const v1::ListCommandsResponse table = command_table(session);
-  for (const v1::Command& command : table.commands()) {
-    if (!wanted.empty() && command.name() != wanted) continue;
-    found = true;
-    if (session.options.json) {
-      print_json(command);
-    } else {
-      print_command(command, !wanted.empty());
-    }
-  }
-  if (found || wanted.empty()) return kDone;
-  throw Failure{kUsage, "UNKNOWN_COMMAND", fmt::format("the command table has no command \"{}\"", wanted),
-                "axisctl commands lists them"};
-}
+}  // namespace
+
+std::span<const Verb> device_verbs() { return kDeviceVerbs; }
 
 }  // namespace axisgate::axisctl

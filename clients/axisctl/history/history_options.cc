@@ -8,7 +8,7 @@ namespace axisgate::axisctl {
 namespace {
 
 void add_history(CLI::App& app, Options& options) {
-  CLI::App* history = add_verb(app, options, Verb::history, "history", "show what has happened, newest first");
+  CLI::App* history = add_verb(app, options, OldVerb::history, "history", "show what has happened, newest first");
   CLI::Option* hours = history->add_option("--hours", options.hours, "only the last N hours");
   hours->check(CLI::Range(1, 100'000))->type_name("N");
   CLI::Option* who = history->add_option("--who", options.who, "only what this caller did, e.g. 'unix anna'");
@@ -37,35 +37,21 @@ void add_history(CLI::App& app, Options& options) {
   csv->excludes(app.get_option("--json"));
 }
 
-void add_motions(CLI::App& app, Options& options) {
-  CLI::App* motions =
-      add_verb(app, options, Verb::motions, "motions", "show the motions that run, and the 20 newest others");
-  motions->add_flag("--all", options.all, "all motions that the daemon has: the 1,000 newest");
-  CLI::App* cancel = add_verb(app, options, Verb::cancel, "cancel", "stop one motion, or drop it if it waits");
-  cancel->add_option("MOTION", options.name, "its number, as `axisctl motions` shows it")->required()->type_name("");
-  add_verb(app, options, Verb::withdraw, "withdraw",
-           "for administrators: abandon an open stop, whose controller will never answer again")
-      ->add_option("STOP", options.open_stop, "its number, as `axisctl status` shows it")
-      ->required()
-      ->type_name("");
-}
-
 }  // namespace
 
 void add_history_verbs(CLI::App& app, Options& options) {
   add_history(app, options);
-  add_motions(app, options);
   CLI::App* audit = app.add_subcommand("audit", "for the journal of `history`: verify, erase");
   audit->require_subcommand(1);
   audit->fallthrough();
   audit->footer(help_text("audit"));
-  CLI::App* verify = add_verb(*audit, options, Verb::audit_verify, "verify",
+  CLI::App* verify = add_verb(*audit, options, OldVerb::audit_verify, "verify",
                               "check that the journal is as it was written, and print its head");
   verify
       ->add_option("--head", options.head,
                    "a head that was printed before: checks that nothing up to there was changed")
       ->type_name("HEAD");
-  CLI::App* erase = add_verb(*audit, options, Verb::audit_erase, "erase",
+  CLI::App* erase = add_verb(*audit, options, OldVerb::audit_erase, "erase",
                              "for administrators: erase the name of a caller from the journal, for ever");
   erase->add_option("NAME", options.who, "as `history` shows it, e.g. 'unix anna'")->required()->type_name("");
   erase->add_flag("--yes", options.yes, "do it: nothing brings the name back");

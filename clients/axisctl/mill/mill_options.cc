@@ -8,10 +8,10 @@ namespace axisgate::axisctl {
 namespace {
 
 void add_checks(CLI::App& mill, Options& options) {
-  CLI::App* check = add_verb(mill, options, Verb::mill_check, "check",
+  CLI::App* check = add_verb(mill, options, OldVerb::mill_check, "check",
                              "show what a job would do, its errors, and risks to the workpiece; needs no daemon");
   CLI::App* preview =
-      add_verb(mill, options, Verb::mill_preview, "preview", "draw what a job would do; needs no daemon");
+      add_verb(mill, options, OldVerb::mill_preview, "preview", "draw what a job would do; needs no daemon");
   check->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
   preview->add_option("FILE", options.mill.files, "the job; - reads the standard input; several files are its parts")
       ->required()
@@ -49,7 +49,7 @@ void add_checks(CLI::App& mill, Options& options) {
 }
 
 // Adds a verb without a help text: the texts for `watch` and `cancel` describe the stage commands of these names.
-CLI::App* add_job_verb(CLI::App& mill, Options& options, Verb verb, const char* name, const char* description) {
+CLI::App* add_job_verb(CLI::App& mill, Options& options, OldVerb verb, const char* name, const char* description) {
   CLI::App* added = add_verb(mill, options, verb, name, description);
   added->footer("");
   return added;
@@ -57,7 +57,7 @@ CLI::App* add_job_verb(CLI::App& mill, Options& options, Verb verb, const char* 
 
 void add_send(CLI::App& mill, Options& options) {
   JobOptions& job = options.job;
-  CLI::App* send = add_job_verb(mill, options, Verb::mill_send, "send", "check a job and send it into the queue");
+  CLI::App* send = add_job_verb(mill, options, OldVerb::mill_send, "send", "check a job and send it into the queue");
   send->add_option("FILE", job.files,
                    "the job; - reads the standard input; of several files the tool is changed between")
       ->type_name("");
@@ -96,7 +96,7 @@ void add_send(CLI::App& mill, Options& options) {
       ->needs(rest)
       ->type_name("LINE[:COLUMN]");
   CLI::App* again =
-      add_job_verb(mill, options, Verb::mill_again, "again", "queue a job that has ended once more, as a new job");
+      add_job_verb(mill, options, OldVerb::mill_again, "again", "queue a job that has ended once more, as a new job");
   again->add_option("JOB", job.number, "its number")->required()->type_name("");
   again
       ->add_option("--accept", job.accepted,
@@ -112,21 +112,21 @@ CLI::Option* add_number(CLI::App& verb, Options& options, const char* descriptio
 
 void add_starts(CLI::App& mill, Options& options) {
   CLI::App* confirm =
-      add_job_verb(mill, options, Verb::mill_confirm, "confirm", "at the mill: say that all is set up for a job");
+      add_job_verb(mill, options, OldVerb::mill_confirm, "confirm", "at the mill: say that all is set up for a job");
   add_number(*confirm, options, "its number (default: the first that waits)");
   confirm->add_flag("--yes", options.yes, "all is set up: do not ask");
   CLI::Option* starts = confirm->add_flag("--start", options.job.start, "start the job, too");
   confirm->add_flag("--follow", options.follow, "show the job until it has ended")->needs(starts);
-  CLI::App* start = add_job_verb(mill, options, Verb::mill_start, "start", "start a job that is confirmed");
+  CLI::App* start = add_job_verb(mill, options, OldVerb::mill_start, "start", "start a job that is confirmed");
   add_number(*start, options, "its number (default: the first that waits)");
   start->add_flag("--follow", options.follow, "show the job until it has ended");
 }
 
 void add_pauses(CLI::App& mill, Options& options) {
   CLI::App* pause =
-      add_job_verb(mill, options, Verb::mill_pause, "pause", "send no more of the job; what was sent runs on");
+      add_job_verb(mill, options, OldVerb::mill_pause, "pause", "send no more of the job; what was sent runs on");
   pause->add_flag("--raise", options.job.raise, "raise the tool after the last sent byte, and stop the spindle");
-  CLI::App* resume = add_job_verb(mill, options, Verb::mill_resume, "resume",
+  CLI::App* resume = add_job_verb(mill, options, OldVerb::mill_resume, "resume",
                                   "send the rest of the job that is paused; with JOB, choose where that one continues");
   CLI::Option* job = add_number(*resume, options, "the number of a job that is PAUSED or PAUSED_UNKNOWN");
   resume
@@ -138,24 +138,24 @@ void add_pauses(CLI::App& mill, Options& options) {
 
 void add_hand_verbs(CLI::App& mill, Options& options) {
   JobOptions& job = options.job;
-  CLI::App* jog = add_job_verb(mill, options, Verb::mill_jog, "jog",
+  CLI::App* jog = add_job_verb(mill, options, OldVerb::mill_jog, "jog",
                                "move the tool by a short step, unchecked; the spindle stops before it");
   jog->add_option("AXIS=MM", job.distances, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
       ->required()
       ->type_name("");
   jog->add_option("--speed", job.mm_per_s, "in mm/s (default: the mill's)")->type_name("MM/S");
   CLI::App* origin =
-      add_job_verb(mill, options, Verb::mill_origin, "origin", "set Z0; X and Y are set at the mill's panel");
+      add_job_verb(mill, options, OldVerb::mill_origin, "origin", "set Z0; X and Y are set at the mill's panel");
   CLI::Option* name = origin->add_option(
       "NAME", job.origin, "an origin of the configuration that has a height (default: where the tool is)");
   name->type_name("");
   origin->add_option("--z", job.z, "a machine coordinate, in steps")->type_name("STEPS")->excludes(name);
-  CLI::App* spindle = add_job_verb(mill, options, Verb::mill_spindle, "spindle", "start or stop the spindle");
+  CLI::App* spindle = add_job_verb(mill, options, OldVerb::mill_spindle, "spindle", "start or stop the spindle");
   spindle->add_option("on|off", job.spindle, "whether it turns")
       ->required()
       ->check(CLI::IsMember({"on", "off"}))
       ->type_name("");
-  add_job_verb(mill, options, Verb::mill_raise, "raise", "stop the spindle, and raise the tool to the top");
+  add_job_verb(mill, options, OldVerb::mill_raise, "raise", "stop the spindle, and raise the tool to the top");
 }
 
 }  // namespace
@@ -167,23 +167,23 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   mill->footer(help_text("mill"));
   add_checks(*mill, options);
   add_send(*mill, options);
-  add_job_verb(*mill, options, Verb::mill_queue, "queue", "show the mill, its queue, and the job that runs");
+  add_job_verb(*mill, options, OldVerb::mill_queue, "queue", "show the mill, its queue, and the job that runs");
   add_starts(*mill, options);
-  add_job_verb(*mill, options, Verb::mill_watch, "watch", "show the job that runs until it has ended");
+  add_job_verb(*mill, options, OldVerb::mill_watch, "watch", "show the job that runs until it has ended");
   add_pauses(*mill, options);
-  add_job_verb(*mill, options, Verb::mill_abort, "abort", "end the job that runs; look at the mill afterwards");
-  add_number(*add_job_verb(*mill, options, Verb::mill_cancel, "cancel", "take a job out of the queue"), options,
+  add_job_verb(*mill, options, OldVerb::mill_abort, "abort", "end the job that runs; look at the mill afterwards");
+  add_number(*add_job_verb(*mill, options, OldVerb::mill_cancel, "cancel", "take a job out of the queue"), options,
              "its number")
       ->required();
-  add_job_verb(*mill, options, Verb::mill_clear, "clear",
+  add_job_verb(*mill, options, OldVerb::mill_clear, "clear",
                "for administrators: take a caller's waiting jobs out of the queue")
       ->add_option("WHO", options.who, "their owner as `mill queue` shows it, e.g. 'unix anna'")
       ->required()
       ->type_name("");
-  add_number(*add_job_verb(*mill, options, Verb::mill_first, "first", "move a job to the front of the queue"), options,
-             "its number")
+  add_number(*add_job_verb(*mill, options, OldVerb::mill_first, "first", "move a job to the front of the queue"),
+             options, "its number")
       ->required();
-  add_number(*add_job_verb(*mill, options, Verb::mill_done, "done", "say that the workpiece of a job was seen"),
+  add_number(*add_job_verb(*mill, options, OldVerb::mill_done, "done", "say that the workpiece of a job was seen"),
              options, "its number (default: the one that is FED)");
   add_hand_verbs(*mill, options);
 }

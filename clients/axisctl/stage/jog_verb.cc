@@ -3,6 +3,7 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -29,9 +30,9 @@ using JogStream = grpc::ClientReaderWriter<v1::JogRequest, v1::JogResponse>;
 // Interval of the renewals. The daemon stops the axes after 500 ms without a renewal.
 constexpr std::chrono::milliseconds kRenewEvery{100};
 
-sem_t ended;  // posted by a signal, or when the call is over
+sem_t jog_ended;  // posted by a signal, or when the call is over
 
-void end(int) { sem_post(&ended); }
+void end_jog(int) { sem_post(&jog_ended); }
 
 timespec to_timespec(Clock::time_point time) {
   const auto since = time.time_since_epoch();
@@ -48,15 +49,15 @@ timespec to_timespec(Clock::time_point time) {
 class Renewals {
  public:
   explicit Renewals(JogStream& stream) : stream_(stream) {
-    sem_init(&ended, 0, 0);
+    sem_init(&jog_ended, 0, 0);
     // A second signal ends axisctl, in case the daemon does not answer the first. SA_RESTART prevents half-printed
     // lines.
-    on_end_signals(end, static_cast<int>(SA_RESETHAND | SA_RESTART));
+    on_end_signals(end_jog, static_cast<int>(SA_RESETHAND | SA_RESTART));
     renewer_ = std::thread([this] { renew(); });
   }
 
   ~Renewals() {
-    sem_post(&ended);
+    sem_post(&jog_ended);
     renewer_.join();
   }
 
@@ -79,7 +80,7 @@ class Renewals {
   bool ends_before(Clock::time_point next) {
     const Clock::time_point end = end_;
     const timespec limit = to_timespec(std::min(next, end));
-    while (sem_clockwait(&ended, CLOCK_MONOTONIC, &limit) != 0) {
+    while (sem_clockwait(&jog_ended, CLOCK_MONOTONIC, &limit) != 0) {
       if (errno != EINTR) return end <= next;
     }
     return true;
@@ -132,8 +133,6 @@ v1::Motion run(const Session& session, const v1::Device& device, const v1::JogRe
   return motion;
 }
 
-}  // namespace
-
 int jog(const Session& session) {
   const v1::Device device = chosen_device(session);
   const v1::JogRequest request = make_request(session.options, session.connection.new_call_context(), device);
@@ -150,5 +149,28 @@ int jog(const Session& session) {
   follower.finish();
   return report_outcome(session, device, motion);
 }
+
+void jog_options(CLI::App& verb, Options& options) {
+  verb.add_option("AXIS=DIRECTION", options.places, "direction of each axis, e.g. 1=+ 2=-")->required()->type_name("");
+  verb.add_option("--speed", options.speed, "e.g. 1mm/s (default: the minimum speed of the axis)")->type_name("SPEED");
+  verb.add_option("--seconds", options.seconds, "stop the axes after S seconds")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("S");
+}
+
+constexpr Verb kJogVerbs[] = {
+    {.words = "jog",
+     .heading = Heading::moving,
+     .description = "move axes until Ctrl-C, which stops them",
+     .help = "Ctrl-C stops the axes. So does the daemon when axisctl is killed or cut off.",
+     .examples = "axisctl jog 1=- --speed 200um/s --seconds 1",
+     .add_options = jog_options,
+     .run = jog,
+     .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> jog_verbs() { return kJogVerbs; }
 
 }  // namespace axisgate::axisctl

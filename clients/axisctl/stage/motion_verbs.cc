@@ -1,9 +1,11 @@
-// home, move and scan: request a motion, then wait for its outcome.
+// home and move: request a motion, then wait for its outcome.
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/parse.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
@@ -36,8 +38,6 @@ v1::AxisTarget target(const Session& session, const v1::Device& device, const st
   return target;
 }
 
-}  // namespace
-
 int home(const Session& session) {
   const v1::Device device = chosen_device(session);
   return start_and_wait(session, device, [&] {
@@ -60,27 +60,56 @@ int move(const Session& session) {
   });
 }
 
-int scan(const Session& session) {
-  const Options& options = session.options;
-  const v1::Device device = chosen_device(session);
-  const v1::Axis& axis = find_axis(device, options.axis);
-  v1::ScanRequest request;
-  *request.mutable_context() = session.connection.new_call_context();
-  request.set_device(device.name());
-  request.set_axis(axis.number());
-  *request.mutable_from() = parse_amount_for(axis, options.from);
-  *request.mutable_to() = parse_amount_for(axis, options.to);
-  if (!options.speed.empty()) *request.mutable_speed() = parse_speed_for(axis, options.speed);
-  request.set_acceleration_ms(options.acceleration_ms);
-  if (options.by_scale) {
-    request.set_scale_pulses(options.every);
-  } else {
-    request.set_drive_pulses(options.every);
-  }
-  return start_and_wait(session, device, [&] {
-    return session.connection.call(session.connection.stage, &v1::StageService::Stub::Scan, request, kStartLimit)
-        .motion();
-  });
+void home_options(CLI::App& verb, Options& options) {
+  add_axes(verb, options);
+  verb.add_flag("--logical", options.logical, "move to the logical origin instead: coordinate 0");
+  add_waiting(verb, options);
 }
+
+void move_options(CLI::App& verb, Options& options) {
+  verb.add_option("AXIS=AMOUNT", options.places, "where each axis moves, e.g. 1=5mm 2=-0.2mm")
+      ->required()
+      ->type_name("");
+  verb.add_flag("--relative", options.relative, "the amounts are distances from the present positions");
+  verb.add_option(
+          "--approach", options.approach,
+          "reach the target over this last distance in + direction, e.g. 10um; in - direction: --approach=-10um")
+      ->type_name("AMOUNT");
+  add_speed(verb, options, "maximum speed of each axis, e.g. 2mm/s (default: see `axisctl speed`)");
+  add_waiting(verb, options);
+}
+
+constexpr Verb kMotionVerbs[] = {
+    {.words = "home",
+     .heading = Heading::moving,
+     .description = "home axes: find the mechanical origin, which becomes coordinate 0",
+     .help =
+         R"(Each axis runs to its origin sensor. Its coordinate becomes 0 there, and the travel limits count from there. Ctrl-C ends
+axisctl, not the motion: `axisctl stop` stops it.)",
+     .examples = "axisctl home 1 2",
+     .add_options = home_options,
+     .run = home,
+     .waits = true},
+    {.words = "move",
+     .heading = Heading::moving,
+     .description = "move axes to positions, or with --relative by distances",
+     .help =
+         R"(Amounts are absolute positions. With --relative they are distances from the present positions. A + sign alone does not
+make a move relative. `axisctl help units` explains amounts.
+
+All axes start together, each at its own speed: two axes do not follow a straight line. `axisctl line` does. With
+--approach each axis makes the last part of its move in the same direction every time, so backlash has no effect. Ctrl-C
+ends axisctl, not the motion: `axisctl stop` stops it.)",
+     .examples = R"(axisctl move 1=+1mm 2=-200um --relative --speed 2mm/s
+axisctl move 1=0.5mm --wait 60
+axisctl move 1=0.4mm 2=0 --approach 10um)",
+     .add_options = move_options,
+     .run = move,
+     .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> motion_verbs() { return kMotionVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,6 +1,7 @@
 // path, line and arc: read all segments, send them, and follow the path.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/stage/path_grammar.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
@@ -83,8 +85,6 @@ int run(const Session& session, const v1::Device& device, const std::vector<v1::
   return report_outcome(session, device, motion);
 }
 
-}  // namespace
-
 int path(const Session& session) {
   const v1::Device device = chosen_device(session);
   return run(session, device, read_segments(session.options, device));
@@ -104,5 +104,68 @@ int arc(const Session& session) {
     throw usage("that is a straight line", "use axisctl line; an arc begins with around or through");
   return run(session, device, {segment});
 }
+
+void add_manner_of_path(CLI::App& verb, Options& options) {
+  verb.add_flag("--absolute", options.absolute, "the amounts are positions, not distances");
+  add_speed(verb, options, "speed along the path, e.g. 2mm/s, for segments without speed=");
+  add_waiting(verb, options);
+}
+
+void add_path_options(CLI::App& verb, Options& options) {
+  verb.add_option("FILE", options.file,
+                  "one segment per line, e.g. 1=1mm 2=-500um speed=2mm/s; - reads the standard input")
+      ->required()
+      ->type_name("");
+  add_manner_of_path(verb, options);
+}
+
+void line_options(CLI::App& verb, Options& options) {
+  verb.add_option("AXIS=AMOUNT", options.lines, "distance of each axis, e.g. 1=1mm 2=-500um")
+      ->required()
+      ->type_name("");
+  add_manner_of_path(verb, options);
+}
+
+void arc_options(CLI::App& verb, Options& options) {
+  verb.add_option("COURSE", options.lines, "e.g. around 1=0 2=1mm ccw 90deg (see `axisctl help paths`)")
+      ->required()
+      ->type_name("");
+  add_manner_of_path(verb, options);
+}
+
+constexpr Verb kPathVerbs[] = {
+    {.words = "path",
+     .heading = Heading::moving,
+     .description = "run a continuous path: lines and arcs without a stop between them",
+     .help =
+         "FILE has one segment per line: a straight line or an arc. `axisctl help paths` explains segments. Ctrl-C\n"
+         "ends axisctl, not the motion: `axisctl stop` stops it.",
+     .examples = R"(printf '1=1mm 2=-500um speed=2mm/s\n1=-1mm 2=500um\n' | axisctl path -
+printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | axisctl path - --speed 1mm/s)",
+     .add_options = add_path_options,
+     .run = path,
+     .waits = true},
+    {.words = "line",
+     .heading = Heading::moving,
+     .description = "run a straight line: the axes start and end together",
+     .help = "A path of one straight line. `axisctl help paths` explains it.",
+     .examples = "axisctl line 1=0.1mm 2=-50um --speed 1mm/s",
+     .add_options = line_options,
+     .run = line,
+     .waits = true},
+    {.words = "arc",
+     .heading = Heading::moving,
+     .description = "run a circle, an arc or a helix",
+     .help = "A path of one arc. `axisctl help paths` explains it.",
+     .examples = R"(axisctl arc around 1=0 2=50um ccw 90deg --speed 1mm/s
+axisctl arc through 1=20um 2=30um to 1=50um 2=20um --speed 1mm/s)",
+     .add_options = arc_options,
+     .run = arc,
+     .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> path_verbs() { return kPathVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// stop, estop and withdraw: one call, also for several devices. The texts never claim more about an axis than is known.
+// stop and estop: one call, also for several devices. The texts never claim more about an axis than is known.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
@@ -98,8 +99,6 @@ Request new_request(const Session& session) {
   return request;
 }
 
-}  // namespace
-
 int stop(const Session& session) {
   auto request = new_request<v1::StopRequest>(session);
   set_axes(session, request);
@@ -122,18 +121,28 @@ int emergency_stop(const Session& session) {
   return exit_code;
 }
 
-int withdraw_stop(const Session& session) {
-  v1::WithdrawStopRequest request;
-  *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(fmt::format("{}/stops/{}", chosen_device(session).name(), session.options.open_stop));
-  const v1::WithdrawStopResponse response = session.connection.call(
-      session.connection.devices, &v1::DeviceService::Stub::WithdrawStop, request, kQuestionLimit);
-  if (session.options.json) {
-    print_json(response);
-  } else {
-    print_line(fmt::format("stop {} was withdrawn; nobody has seen its axes obey it", session.options.open_stop));
-  }
-  return kDone;
-}
+constexpr Verb kStopVerbs[] = {
+    {.words = "stop",
+     .heading = Heading::stopping,
+     .description = "slow down and stop axes, also those that others move",
+     .help =
+         R"(Anybody may stop all axes, also those that others move. After a stop by somebody else, motions are refused until their
+caller types `axisctl rearm`. With `estop` the axes do not slow down first, and nothing moves until `axisctl clear`.
+If nobody could see the axes obey, the exit code is 1 and the stop stays open: the daemon repeats it as soon as the
+controller answers, also after a restart, and refuses motion of these axes until then. `axisctl status` shows it.)",
+     .examples = "axisctl stop",
+     .add_options = add_axes,
+     .run = stop},
+    {.words = "estop",
+     .heading = Heading::stopping,
+     .description = "emergency stop: stop all axes at once; no motion until `clear`",
+     .help = "Not a safety function: keep the wired emergency stop within reach.",
+     .examples = "axisctl estop",
+     .run = emergency_stop},
+};
+
+}  // namespace
+
+std::span<const Verb> stop_verbs() { return kStopVerbs; }
 
 }  // namespace axisgate::axisctl

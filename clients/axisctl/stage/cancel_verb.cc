@@ -1,54 +1,17 @@
-// motions, cancel: list the motions that the daemon has, and stop one of them.
+// cancel: stops one motion, or drops it if it waits.
 #include <fmt/format.h>
-#include <google/protobuf/util/time_util.h>
 
-#include <algorithm>
-#include <cstddef>
+#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/print.h"
-#include "clients/axisctl/table.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
 namespace {
-
-using google::protobuf::util::TimeUtil;
-
-constexpr int kNewestWithOutcome = 20;
-
-bool has_outcome(const v1::Motion& motion) { return motion.state() >= v1::MOTION_STATE_SUCCEEDED; }
-
-// Returns the motions to show, oldest first, in the order of the answer.
-std::vector<v1::Motion> shown_of(const v1::ListMotionsResponse& there, bool all) {
-  auto hidden =
-      all ? 0 : std::max<std::ptrdiff_t>(0, std::ranges::count_if(there.motions(), has_outcome) - kNewestWithOutcome);
-  std::vector<v1::Motion> shown;
-  for (const v1::Motion& motion : there.motions()) {
-    if (has_outcome(motion) && hidden > 0) {
-      --hidden;
-    } else {
-      shown.push_back(motion);
-    }
-  }
-  return shown;
-}
-
-// Returns the cells of a row. The last cell is the end of the motion, or its duration up to `now` if it has no outcome.
-std::vector<std::string> cells_of(const v1::Motion& motion, const google::protobuf::Timestamp& now) {
-  const auto& since = motion.has_start_time() ? motion.start_time() : motion.create_time();
-  return {std::string(last_part(motion.name())),
-          kind_name(motion.kind()),
-          fmt::format("{}", fmt::join(motion.axes(), ",")),
-          state_name(motion.state()),
-          motion.who(),
-          motion.has_start_time() ? time_text(motion.start_time()) : "not started",
-          motion.has_end_time() ? time_text(motion.end_time()) : "for " + duration_text(since, now)};
-}
 
 // Returns "devices/stage/motions/12" for the same text or for "12".
 std::string motion_name(const Session& session, const std::string& text) {
@@ -80,34 +43,12 @@ std::string fate_text(const v1::Device& device, const v1::Motion& motion, std::s
                      state_name(motion.state()), ends.empty() ? "" : "; ", ends);
 }
 
-}  // namespace
-
-int motions(const Session& session) {
-  v1::ListMotionsRequest request;
-  request.set_device(chosen_device(session).name());
-  const v1::ListMotionsResponse there =
-      session.connection.call(session.connection.stage, &v1::StageService::Stub::ListMotions, request, kQuestionLimit);
-  const std::vector<v1::Motion> shown = shown_of(there, session.options.all);
-  if (session.options.json) {
-    for (const v1::Motion& motion : shown) print_json(motion);
-    return kDone;
-  }
-  if (shown.empty()) {
-    print_line("no motions");
-    return kDone;
-  }
-  std::vector<std::vector<std::string>> rows{{"number", "kind", "axes", "state", "who", "started", "ended"}};
-  for (const v1::Motion& motion : shown) rows.push_back(cells_of(motion, TimeUtil::GetCurrentTime()));
-  for (const std::string& line : table_lines(rows)) print_line(line);
-  return kDone;
-}
-
 int cancel(const Session& session) {
   v1::CancelMotionRequest request;
   *request.mutable_context() = new_stop_context();
   request.set_name(motion_name(session, session.options.name));
   const v1::Device device = device_of_motion(session, request.name());
-  const bool ended_before = has_outcome(motion_now(session, request.name()));
+  const bool ended_before = motion_now(session, request.name()).state() >= v1::MOTION_STATE_SUCCEEDED;
   session.connection.call(session.connection.stage, &v1::StageService::Stub::CancelMotion, request, kStopLimit);
   const v1::Motion motion = await_outcome(session, request.name());
   if (!ended_before && motion.state() != v1::MOTION_STATE_STOPPED) return report_outcome(session, device, motion);
@@ -120,5 +61,24 @@ int cancel(const Session& session) {
   }
   return kDone;
 }
+
+void cancel_options(CLI::App& verb, Options& options) {
+  verb.add_option("MOTION", options.name, "its number, as `axisctl motions` shows it")->required()->type_name("");
+}
+
+constexpr Verb kCancelVerbs[] = {
+    {.words = "cancel",
+     .heading = Heading::stopping,
+     .description = "stop one motion, or drop it if it waits",
+     .help = "Needs no lease. After a cancel by somebody else, motions are refused until their caller types `axisctl "
+             "rearm`.",
+     .examples = "axisctl cancel 1",
+     .add_options = cancel_options,
+     .run = cancel},
+};
+
+}  // namespace
+
+std::span<const Verb> cancel_verbs() { return kCancelVerbs; }
 
 }  // namespace axisgate::axisctl
