@@ -189,20 +189,6 @@ void add_target(CLI::App& app, Target& target) {
   key->needs(certificate);
 }
 
-void add_position_verbs(CLI::App& app, Options& options) {
-  CLI::App* save = add_verb(app, options, OldVerb::save, "save", "save the present position under a name");
-  save->add_flag("--coordinates", options.coordinates, "save the coordinates, not the physical position");
-  save->add_flag("--keep", options.keep, "do not replace a saved position");
-  add_verb(app, options, OldVerb::positions, "positions", "show the saved positions");
-  CLI::App* go = add_verb(app, options, OldVerb::go, "go", "move to a saved position");
-  add_waiting(*go, options);
-  CLI::App* forget = add_verb(app, options, OldVerb::forget, "forget", "delete a saved position");
-  for (CLI::App* verb : {save, go, forget}) {
-    verb->add_option("NAME", options.name, "1 to 40 letters, digits, - and _")->required()->type_name("");
-    add_wait(*verb, options);
-  }
-}
-
 // Sets the headings of `axisctl help`.
 void set_groups(CLI::App& app) {
   struct Group {
@@ -283,14 +269,12 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   for (const Verb* verb : verbs()) add_row(app, options, *verb);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
-  add_position_verbs(app, options);
   add_history_verbs(app, options);
   add_other_verbs(app, options);
   add_lease_verbs(app, options);
   add_access_verbs(app, options);
   add_simulator_verb(app, options);
   add_recording_verbs(app, options);
-  add_setting_verbs(app, options);
   add_mill_verbs(app, options);
   CLI::App* help = app.add_subcommand(
       "help", "show this, or explain a command or a topic: units, paths, scans, leases, settings, triggers");

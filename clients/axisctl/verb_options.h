@@ -27,9 +27,6 @@ CLI::App* add_verb(CLI::App& app, Options& options, OldVerb verb, const char* na
 // Defined in history_options.cc.
 void add_history_verbs(CLI::App& app, Options& options);
 
-// Defined in setting_options.cc.
-void add_setting_verbs(CLI::App& app, Options& options);
-
 // Defined in mill_options.cc.
 void add_mill_verbs(CLI::App& app, Options& options);
 

@@ -4,8 +4,8 @@ namespace axisgate::axisctl {
 namespace {
 
 constexpr std::span<const Verb> (*kGroups[])() = {
-    device_verbs, motion_verbs, path_verbs,  scan_verbs,    jog_verbs,
-    stop_verbs,   cancel_verbs, clear_verbs, motions_verbs, command_verbs,
+    device_verbs, motion_verbs, path_verbs,    scan_verbs,    jog_verbs,      position_verbs,   stop_verbs,
+    cancel_verbs, clear_verbs,  motions_verbs, command_verbs, settings_verbs, coordinate_verbs, signal_verbs,
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // save, positions, go and forget: saved positions of the stage.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/stage/setting_calls.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
@@ -33,8 +35,6 @@ std::string whole_text(const v1::Device& device, const v1::Position& position) {
                      position.number(), places_text(device, position), time_text(position.save_time()), position.who(),
                      position.emptied() ? "  the controller may have lost it" : "");
 }
-
-}  // namespace
 
 int save_position(const Session& session) {
   const v1::Device device = chosen_device(session);
@@ -86,5 +86,59 @@ int forget_position(const Session& session) {
                      session.connection.call(session.connection.positions, &v1::PositionService::Stub::DeletePosition,
                                              request, kSettingLimit));
 }
+
+void add_position_name(CLI::App& verb, Options& options) {
+  verb.add_option("NAME", options.name, "1 to 40 letters, digits, - and _")->required()->type_name("");
+}
+
+void save_options(CLI::App& verb, Options& options) {
+  verb.add_flag("--coordinates", options.coordinates, "save the coordinates, not the physical position");
+  verb.add_flag("--keep", options.keep, "do not replace a saved position");
+  add_position_name(verb, options);
+}
+
+void go_options(CLI::App& verb, Options& options) {
+  add_waiting(verb, options);
+  add_position_name(verb, options);
+}
+
+constexpr Verb kPositionVerbs[] = {
+    {.words = "save",
+     .heading = Heading::moving,
+     .description = "save the present position under a name",
+     .help =
+         R"(A position has the coordinates of all axes. It is a place: it stays the same place when coordinates are set again. A
+restart of the controller clears it. With --coordinates the coordinates are saved instead, and kept over a restart. The
+controller stores twenty of each kind by number. A new name takes the lowest number without a name. What another program
+has stored there is overwritten.)",
+     .examples = "axisctl save sample\naxisctl save park --coordinates\naxisctl positions",
+     .add_options = save_options,
+     .run = save_position,
+     .waits = true},
+    {.words = "positions",
+     .heading = Heading::moving,
+     .description = "show the saved positions",
+     .examples = "axisctl positions",
+     .run = list_positions},
+    {.words = "go",
+     .heading = Heading::moving,
+     .description = "move to a saved position",
+     .help = "Moves all axes together. Nothing moves if the controller now holds another position, or none.",
+     .examples = "axisctl go sample\naxisctl go park --wait 60",
+     .add_options = go_options,
+     .run = go_to_position,
+     .waits = true},
+    {.words = "forget",
+     .heading = Heading::moving,
+     .description = "delete a saved position",
+     .examples = "axisctl forget sample",
+     .add_options = add_position_name,
+     .run = forget_position,
+     .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> position_verbs() { return kPositionVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -2,15 +2,19 @@
 // controller.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/stage/setting_calls.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 #include "device/core/quantity.h"
 
@@ -114,8 +118,6 @@ std::int64_t settling_tenths(const std::string& text) {
   throw usage(fmt::format("\"{}\" is not 0 to 255 s in steps of 0.1 s", text), "e.g. `axisctl settle 0.1`");
 }
 
-}  // namespace
-
 int show_settings(const Session& session) {
   const v1::Device device = chosen_device(session);
   const v1::Settings settings = settings_of(session, device);
@@ -188,5 +190,172 @@ int reset_controller(const Session& session) {
   return report_done(session, session.connection.call(session.connection.settings,
                                                       &v1::SettingService::Stub::ResetDevice, request, kSettingLimit));
 }
+
+void add_several_axes(CLI::App& verb, Options& options) {
+  verb.add_option("AXES", options.axes, "numbers or names, e.g. 1,2")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("");
+}
+
+// Adds an argument that must be one of `values`, in upper or lower case.
+void add_value(CLI::App& verb, Options& options, const char* name, std::vector<std::string> values) {
+  verb.add_option(name, options.value)
+      ->required()
+      ->check(CLI::IsMember(std::move(values), CLI::ignore_case))
+      ->type_name("");
+}
+
+void add_switch(CLI::App& verb, Options& options) { add_value(verb, options, "SWITCH", {"on", "off"}); }
+
+void settle_options(CLI::App& verb, Options& options) {
+  verb.add_option("SECONDS", options.value, "0 to 255, in steps of 0.1")->required()->type_name("");
+}
+
+void mode_options(CLI::App& verb, Options& options) {
+  add_value(verb, options, "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
+}
+
+void dialect_options(CLI::App& verb, Options& options) { add_value(verb, options, "DIALECT", {"SHOT_FC", "HIT"}); }
+
+void speed_options(CLI::App& verb, Options& options) {
+  add_axes(verb, options);
+  verb.add_option("--minimum", options.minimum, "speed at which a motion begins and ends, e.g. 10um/s")
+      ->type_name("SPEED");
+  verb.add_option("--maximum", options.maximum, "highest speed, e.g. 1mm/s")->type_name("SPEED");
+  verb.add_option("--acceleration", options.acceleration_ms,
+                  "time in ms to speed up from the minimum to the maximum speed, and to slow down")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("MS");
+  verb.add_flag("--origin-return", options.origin_return, "the speeds of `home`: the mechanical origin return");
+}
+
+void motor_options(CLI::App& verb, Options& options) {
+  add_several_axes(verb, options);
+  add_switch(verb, options);
+}
+
+void loop_options(CLI::App& verb, Options& options) {
+  add_several_axes(verb, options);
+  add_value(verb, options, "LOOP", {"closed", "open"});
+}
+
+void divisions_options(CLI::App& verb, Options& options) {
+  verb.add_option("AXIS", options.axes)->required()->expected(1)->allow_extra_args(false)->type_name("");
+  verb.add_option("NUMBER", options.divisions, "1 to 8000, e.g. 200")->required()->type_name("");
+}
+
+// `speed` has no --wait, because speeds end with the lease under which they were set.
+constexpr Verb kSettingsVerbs[] = {
+    {.words = "settings",
+     .heading = Heading::settings,
+     .description = "show all settings",
+     .help =
+         R"(Shows all settings, one per line. These commands change settings: speed, motor, loop, divisions, settle, sleep, wake,
+display, beep, mode, dialect, outputs, trigger. zero, unzero and preset set coordinates. reset restarts the controller.
+A setting stays until it is set again, or until the controller restarts. Speeds, outputs and the trigger end with the
+lease under which they were set.)",
+     .examples = "axisctl settings\naxisctl --json settings",
+     .run = show_settings},
+    {.words = "settle",
+     .heading = Heading::settings,
+     .description = "set the settling time: the wait after a motion before the axis is READY",
+     .help = "The wait between the end of positioning and READY: 0 to 255 s in steps of 0.1 s.",
+     .examples = "axisctl settle 0.1\naxisctl settle 0",
+     .add_options = settle_options,
+     .run = change_settling,
+     .waits = true},
+    {.words = "sleep",
+     .heading = Heading::settings,
+     .description = "put the controller to sleep: all motors off until `wake`",
+     .help = "Nothing moves until `axisctl wake`.",
+     .examples = "axisctl sleep",
+     .run = sleep_controller,
+     .waits = true},
+    {.words = "wake",
+     .heading = Heading::settings,
+     .description = "end the sleep: motors on. CAUTION: the stage moves back to its position before the sleep",
+     .help = "CAUTION: axes move. The stage moves back to its position before the sleep.",
+     .examples = "axisctl wake",
+     .run = wake_controller,
+     .waits = true},
+    {.words = "display",
+     .heading = Heading::settings,
+     .description = "switch the light of the display on or off",
+     .examples = "axisctl display off\naxisctl display on",
+     .add_options = add_switch,
+     .run = switch_display,
+     .waits = true},
+    {.words = "beep",
+     .heading = Heading::settings,
+     .description = "switch the beep of the controller on or off",
+     .examples = "axisctl beep off\naxisctl beep on",
+     .add_options = add_switch,
+     .run = switch_beep,
+     .waits = true},
+    {.words = "mode",
+     .heading = Heading::settings,
+     .description = "for administrators: change the operation mode: HOST, MANUAL, REMOTE, ...",
+     .help = "In a non-host mode the daemon cannot reach the controller until HOST is chosen at the front panel.",
+     .examples = "axisctl mode HOST",
+     .add_options = mode_options,
+     .run = change_mode,
+     .waits = true},
+    {.words = "dialect",
+     .heading = Heading::settings,
+     .description = "for administrators: change the command format: SHOT_FC or HIT",
+     .help = "The daemon uses SHOT_FC. In HIT the device is down until SHOT_FC is chosen at the front panel.",
+     .examples = "axisctl dialect SHOT_FC",
+     .add_options = dialect_options,
+     .run = change_dialect,
+     .waits = true},
+    {.words = "reset",
+     .heading = Heading::settings,
+     .description = "for administrators: restart the controller",
+     .help =
+         R"(Settings return to the values of the memory switches, and coordinates become 0: home the axes again. Leases end.)",
+     .examples = "axisctl reset",
+     .run = reset_controller},
+    {.words = "speed",
+     .heading = Heading::settings,
+     .description = "show or set the speeds of axes",
+     .help =
+         R"(An axis speeds up from MINIMUM to MAXIMUM within the time of --acceleration. An option that is left out stays as it is.
+Without options the present speeds are shown. With --origin-return they are those of the mechanical origin return.)",
+     .examples = R"(axisctl speed 1,2
+axisctl speed 1 --minimum 10um --maximum 1mm --acceleration 50
+axisctl speed 1,2 --maximum 0.5mm/s --origin-return)",
+     .add_options = speed_options,
+     .run = speeds},
+    {.words = "motor",
+     .heading = Heading::settings,
+     .description = "switch the current of motors on or off",
+     .help = "Without current an axis can be moved by hand, and its position is uncertain.",
+     .examples = "axisctl motor 3 off\naxisctl motor 3 on",
+     .add_options = motor_options,
+     .run = switch_motor,
+     .waits = true},
+    {.words = "loop",
+     .heading = Heading::settings,
+     .description = "closed loop (position feedback from the scale, the encoder) or open loop",
+     .help = "In closed loop the controller holds an axis at its position by its scale, an encoder.",
+     .examples = "axisctl loop 1 closed\naxisctl loop 1,2 open",
+     .add_options = loop_options,
+     .run = change_loop,
+     .waits = true},
+    {.words = "divisions",
+     .heading = Heading::settings,
+     .description = "set the microstep divisions of a motor driver: the resolution",
+     .help = "They change the resolution, and so the meaning of all coordinates in pulses.",
+     .examples = "axisctl divisions 3 100\naxisctl divisions 3 200",
+     .add_options = divisions_options,
+     .run = change_divisions,
+     .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> settings_verbs() { return kSettingsVerbs; }
 
 }  // namespace axisgate::axisctl

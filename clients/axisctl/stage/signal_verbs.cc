@@ -1,6 +1,7 @@
 // outputs, inputs and trigger: the controller's digital signals.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -95,8 +96,6 @@ v1::Trigger wanted_trigger(const Options& options, const v1::Device& device) {
   return trigger;
 }
 
-}  // namespace
-
 int outputs(const Session& session) {
   const Options& options = session.options;
   if (!options.value.empty()) check_outputs(options);
@@ -148,5 +147,59 @@ int trigger_fire(const Session& session) {
   return report_done(session, session.connection.call(session.connection.settings,
                                                       &v1::SettingService::Stub::FireTrigger, request, kSettingLimit));
 }
+
+void outputs_options(CLI::App& verb, Options& options) {
+  verb.add_option("SWITCH", options.value, "on or off, then OUT; or the word none: all off")
+      ->check(CLI::IsMember({"on", "off", "none"}))
+      ->type_name("");
+  verb.add_option("OUT", options.outputs, "1 to 6; the others stay as they are")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 6))
+      ->type_name("");
+}
+
+void trigger_every_options(CLI::App& verb, Options& options) {
+  verb.add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, e.g. 1000; or a time, e.g. 0.2s")
+      ->required()
+      ->type_name("");
+  CLI::Option* axis = verb.add_option("--axis", options.axis, "the axis whose pulses are counted")->type_name("AXIS");
+  verb.add_option("--scale", options.scale, "count scale pulses in this direction, not drive pulses")
+      ->check(CLI::IsMember({"+", "-"}))
+      ->needs(axis)
+      ->type_name("+|-");
+}
+
+// `outputs`, `trigger every` and `trigger off` have no --wait, because their settings end with the lease under which
+// they were set.
+constexpr Verb kSignalVerbs[] = {
+    {.words = "outputs",
+     .heading = Heading::settings,
+     .description = "show or switch OUT1 to OUT6",
+     .help = "Outputs that are not named stay as they are. Without arguments it shows which are on.",
+     .examples = "axisctl outputs on 1 3\naxisctl outputs off 3\naxisctl outputs\naxisctl outputs none",
+     .add_options = outputs_options,
+     .run = outputs},
+    {.words = "inputs",
+     .heading = Heading::settings,
+     .description = "show IN1 to IN6",
+     .help = "Shows which inputs are on.",
+     .examples = "axisctl inputs",
+     .run = inputs},
+    {.words = "trigger",
+     .heading = Heading::settings,
+     .description = "set the trigger output: pulses at intervals (every), off, one pulse (fire)",
+     .help = "`axisctl help triggers` explains it.",
+     .examples = "axisctl trigger every 0.2s\naxisctl trigger off\naxisctl trigger fire"},
+    {.words = "trigger every",
+     .description = "give a pulse at equal intervals",
+     .add_options = trigger_every_options,
+     .run = trigger_every},
+    {.words = "trigger off", .description = "give no more pulses", .run = trigger_off},
+    {.words = "trigger fire", .description = "give one pulse now", .run = trigger_fire, .waits = true},
+};
+
+}  // namespace
+
+std::span<const Verb> signal_verbs() { return kSignalVerbs; }
 
 }  // namespace axisgate::axisctl
