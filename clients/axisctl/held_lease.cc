@@ -14,17 +14,11 @@ namespace {
 // Interval between renewals. A lease of ten seconds survives two late renewals.
 constexpr std::chrono::seconds kKeepEvery{3};
 
-v1::AtLoss at_loss(const std::string& word) {
-  if (word == "finish") return v1::AT_LOSS_FINISH;
-  return word == "stop" ? v1::AT_LOSS_STOP : v1::AT_LOSS_STOP_AND_RELEASE;
-}
-
-v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std::vector<std::string>& axes) {
+v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std::vector<std::string>& axes,
+                     v1::AtLoss at_loss) {
   v1::LeaseTerms wanted;
   for (const int axis : find_axes(device, axes)) wanted.add_axes(axis);
-  // A command with --wait ends like one without: after Ctrl-C its motion runs to its end.
-  wanted.set_at_loss(session.options.old_verb == OldVerb::lease_run ? at_loss(session.options.at_loss)
-                                                                    : v1::AT_LOSS_FINISH);
+  wanted.set_at_loss(at_loss);
   wanted.set_purpose(session.options.purpose);
   return wanted;
 }
@@ -61,11 +55,12 @@ v1::Lease acquire(const Session& session, const v1::Device& device, const v1::Le
 
 }  // namespace
 
-HeldLease::HeldLease(const Session& session, const v1::Device& device, const std::vector<std::string>& axes)
+HeldLease::HeldLease(const Session& session, const v1::Device& device, const std::vector<std::string>& axes,
+                     v1::AtLoss at_loss)
     : session_(session),
       device_(device.name()),
-      lease_(session.options.take_over ? take_over(session, device, terms(session, device, axes))
-                                       : acquire(session, device, terms(session, device, axes))),
+      lease_(session.options.take_over ? take_over(session, device, terms(session, device, axes, at_loss))
+                                       : acquire(session, device, terms(session, device, axes, at_loss))),
       keeper_([this] { keep_alive(); }) {}
 
 HeldLease::~HeldLease() {

@@ -14,9 +14,9 @@ namespace axisgate::axisctl {
 
 class HeldLease {
  public:
-  // Acquires a lease over the named or numbered axes; none means the whole device. The options --wait, --take-over,
-  // --at-loss and --purpose apply. Throws Failure.
-  HeldLease(const Session& session, const v1::Device& device, const std::vector<std::string>& axes);
+  // Acquires a lease over the named or numbered axes; none means the whole device. The options --wait, --take-over
+  // and --purpose apply. `at_loss` is what happens to motion when axisctl is killed or cut off. Throws Failure.
+  HeldLease(const Session& session, const v1::Device& device, const std::vector<std::string>& axes, v1::AtLoss at_loss);
   // Releases the lease. A motion that was started under it runs to its end.
   ~HeldLease();
   HeldLease(const HeldLease&) = delete;

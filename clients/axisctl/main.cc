@@ -19,22 +19,6 @@ struct Row {
 };
 
 constexpr Row kRows[] = {
-    {OldVerb::watch, watch},
-    {OldVerb::record, record},
-    {OldVerb::replay, replay},
-    {OldVerb::sim, simulate},
-    {OldVerb::support, support},
-    {OldVerb::lease_run, lease_run},
-    {OldVerb::lease_list, lease_list},
-    {OldVerb::lease_hand_over, lease_hand_over},
-    {OldVerb::rearm, rearm},
-    {OldVerb::who_am_i, who_am_i},
-    {OldVerb::token_create, token_create},
-    {OldVerb::token_list, token_list},
-    {OldVerb::token_revoke, token_revoke},
-    {OldVerb::history, history},
-    {OldVerb::audit_verify, audit_verify},
-    {OldVerb::audit_erase, audit_erase},
     {OldVerb::mill_check, nullptr, false, mill_check},
     {OldVerb::mill_preview, nullptr, false, mill_preview},
     {OldVerb::mill_send, mill_send},

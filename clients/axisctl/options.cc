@@ -79,96 +79,6 @@ void add_row(CLI::App& app, Options& options, const Verb& verb) {
   if (verb.waits) add_wait(added, options);
 }
 
-void add_other_verbs(CLI::App& app, Options& options) {
-  add_verb(app, options, OldVerb::rearm, "rearm",
-           "after a stop by somebody else: allow your motions again; moves nothing");
-  CLI::App* watch = add_verb(app, options, OldVerb::watch, "watch",
-                             "print every event (motions, stops, errors), each with its revision: its number");
-  watch->add_option("--from", options.from_revision, "the first event wanted (default: the next one)")
-      ->type_name("REVISION");
-}
-
-void add_simulator_verb(CLI::App& app, Options& options) {
-  CLI::App* sim =
-      add_verb(app, options, OldVerb::sim, "sim", "simulator only: press buttons, switch inputs, trip limits, unplug");
-  sim->add_option("COMMAND", options.lines, "`help` lists them")->required()->type_name("");
-}
-
-void add_recording_verbs(CLI::App& app, Options& options) {
-  CLI::App* record = add_verb(app, options, OldVerb::record, "record",
-                              "print the serial traffic: the last minutes, then all that follows until Ctrl-C");
-  record->add_option("--output", options.output, "the file to write (default: the standard output)")->type_name("FILE");
-  CLI::Option* no_follow = record->add_flag("--no-follow", options.no_follow, "only the last minutes");
-  CLI::Option* only_new = record->add_flag("--new", options.only_new, "without the last minutes");
-  CLI::Option* seconds = record->add_option("--seconds", options.seconds, "end after this time");
-  seconds->check(CLI::Range(1, 1'000'000))->type_name("S");
-  no_follow->excludes(only_new)->excludes(seconds);
-
-  CLI::App* replay = add_verb(app, options, OldVerb::replay, "replay",
-                              "for developers: run recorded traffic through this version; moves nothing");
-  replay->add_option("FILE", options.file, "a recording or a support report; - reads the standard input")
-      ->required()
-      ->type_name("");
-
-  CLI::App* support = add_verb(app, options, OldVerb::support, "support",
-                               "write a support report, without serial numbers and names of people");
-  support
-      ->add_option("--output", options.output,
-                   "the file to write (default: axisgate-support-TIME.txt); - is the standard output")
-      ->type_name("FILE");
-}
-
-void add_lease_verbs(CLI::App& app, Options& options) {
-  CLI::App* lease = app.add_subcommand("lease", "exclusive use of axes: run, list, hand-over");
-  lease->require_subcommand(1);
-  lease->fallthrough();
-  lease->footer(help_text("lease"));
-  CLI::App* run =
-      add_verb(*lease, options, OldVerb::lease_run, "run", "hold axes while a command runs, e.g. a shell or a script");
-  run->add_option("--axes", options.axes, "numbers or names (default: all axes)")->delimiter(',')->type_name("AXES");
-  add_wait(*run, options);
-  run->add_flag("--take-over", options.take_over,
-                "for administrators: stop the axes and end all other leases over them")
-      ->excludes("--wait");
-  run->add_option("--at-loss", options.at_loss,
-                  "what happens to a running motion when axisctl is killed or loses its connection")
-      ->check(CLI::IsMember({"finish", "stop", "stop-and-release"}))
-      ->capture_default_str();
-  run->add_option("--purpose", options.purpose, "why you hold the axes; others can read it")->type_name("TEXT");
-  run->add_option("COMMAND", options.lines, "the command, after --")->required()->type_name("");
-  run->positionals_at_end();
-  CLI::App* list = add_verb(*lease, options, OldVerb::lease_list, "list",
-                            "show who holds axes, who waits for them, and who must rearm");
-  list->add_flag("--follow", options.follow, "show every change, until Ctrl-C");
-  CLI::App* hand_over = add_verb(*lease, options, OldVerb::lease_hand_over, "hand-over",
-                                 "give your axes to somebody who waits; type it in the shell that `lease run` opened");
-  hand_over->add_option("HOLDER", options.holder, "who waits, as `lease list` shows it, e.g. 'unix bert'")
-      ->required()
-      ->type_name("");
-}
-
-void add_access_verbs(CLI::App& app, Options& options) {
-  add_verb(app, options, OldVerb::who_am_i, "whoami", "show your name and role, as the daemon identifies you");
-  CLI::App* token = app.add_subcommand("token", "for administrators: access tokens: create, list, revoke");
-  token->require_subcommand(1);
-  token->fallthrough();
-  token->footer(help_text("token"));
-  CLI::App* create = add_verb(*token, options, OldVerb::token_create, "create",
-                              "create a token and print it; to use it, set AXISGATE_TOKEN to it");
-  create->add_option("NAME", options.name, "the name: NAME calls as 'token NAME'")->required()->type_name("");
-  create->add_option("--role", options.role, "what a caller with this token may do")
-      ->check(CLI::IsMember({"observer", "operator", "admin"}))
-      ->capture_default_str();
-  create->add_option("--days", options.days, "days until it expires")
-      ->check(CLI::Range(1, 3650))
-      ->capture_default_str()
-      ->type_name("DAYS");
-  add_verb(*token, options, OldVerb::token_list, "list", "show the tokens, with role and expiry");
-  CLI::App* revoke =
-      add_verb(*token, options, OldVerb::token_revoke, "revoke", "refuse all further calls with this token");
-  revoke->add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
-}
-
 void add_target(CLI::App& app, Target& target) {
   app.add_option("--target", target.address,
                  "address of the daemon: path of a Unix socket, or HOST[:PORT] (default: the local daemon)")
@@ -209,10 +119,6 @@ void set_groups(CLI::App& app) {
   for (const Group& group : groups) {
     for (const std::string& verb : group.verbs) app.get_subcommand(verb)->group(group.heading);
   }
-}
-
-bool writes_text_only(OldVerb verb) {
-  return verb == OldVerb::record || verb == OldVerb::replay || verb == OldVerb::support;
 }
 
 int list_examples() {
@@ -269,12 +175,6 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   for (const Verb* verb : verbs()) add_row(app, options, *verb);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
-  add_history_verbs(app, options);
-  add_other_verbs(app, options);
-  add_lease_verbs(app, options);
-  add_access_verbs(app, options);
-  add_simulator_verb(app, options);
-  add_recording_verbs(app, options);
   add_mill_verbs(app, options);
   CLI::App* help = app.add_subcommand(
       "help", "show this, or explain a command or a topic: units, paths, scans, leases, settings, triggers");
@@ -294,7 +194,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
     return other->exit_code;
   }
   if (help->parsed()) return examples ? list_examples() : show_help(app, help_topic);
-  if (options.json && (options.verb != nullptr ? !options.verb->has_json : writes_text_only(options.old_verb))) {
+  if (options.json && options.verb != nullptr && !options.verb->has_json) {
     print_failure(usage("this command has no JSON output", "leave out --json"));
     return kUsage;
   }

@@ -12,22 +12,6 @@ namespace axisgate::axisctl {
 struct Verb;
 
 enum class OldVerb {
-  watch,
-  record,
-  replay,
-  sim,
-  support,
-  lease_run,
-  lease_list,
-  lease_hand_over,
-  rearm,
-  who_am_i,
-  token_create,
-  token_list,
-  token_revoke,
-  history,
-  audit_verify,
-  audit_erase,
   mill_check,
   mill_preview,
   mill_send,

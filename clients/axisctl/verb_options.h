@@ -24,9 +24,6 @@ void add_speed(CLI::App& verb, Options& options, const char* description);
 // Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
 CLI::App* add_verb(CLI::App& app, Options& options, OldVerb verb, const char* name, const char* description);
 
-// Defined in history_options.cc.
-void add_history_verbs(CLI::App& app, Options& options);
-
 // Defined in mill_options.cc.
 void add_mill_verbs(CLI::App& app, Options& options);
 

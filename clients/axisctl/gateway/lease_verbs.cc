@@ -1,30 +1,32 @@
-// lease run, list, hand-over, and rearm: the right to move axes.
+// lease run, list, hand-over: the right to move axes.
 #include <fmt/format.h>
 
-#include <chrono>
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/gateway/child.h"
+#include "clients/axisctl/gateway/lease_board.h"
 #include "clients/axisctl/held_lease.h"
 #include "clients/axisctl/print.h"
+#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
+
+int with_lease(const Session& session, int (*verb)(const Session&)) {
+  if (!session.options.wait_s) return verb(session);
+  std::vector<std::string> axes = session.options.axes;
+  for (const std::string& place : session.options.places) axes.push_back(place.substr(0, place.find('=')));
+  // The command ends like one without --wait: after Ctrl-C its motion runs to its end.
+  const HeldLease held(session, any_device(session), axes, v1::AT_LOSS_FINISH);
+  ::setenv(kLeaseVariable, lease_text(held.lease().token()).c_str(), 1);
+  return verb(session);
+}
+
 namespace {
-
-// `covering`: a Lease, a WaitingLease, a Latch or a RearmResponse.
-template <class Message>
-std::string scope_text(const Message& covering) {
-  if (covering.whole_device()) return "the whole device";
-  return fmt::format("{} {}", covering.axes_size() == 1 ? "axis" : "axes", fmt::join(covering.axes(), ", "));
-}
-
-std::string latch_text(const v1::Latch& latch) {
-  return fmt::format("stopped by {} at {} on {}: must rearm", latch.by(), time_text(latch.time()), scope_text(latch));
-}
 
 void print_board(const v1::WatchLeasesResponse& board) {
   for (const v1::Lease& lease : board.leases()) {
@@ -48,58 +50,13 @@ void print_board(const v1::WatchLeasesResponse& board) {
   if (board.leases().empty() && board.waiting().empty() && board.held_back().empty()) print_line("no leases");
 }
 
-v1::WatchLeasesResponse board_now(const Session& session, const std::string& device) {
-  v1::WatchLeasesRequest request;
-  request.set_device(device);
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + kQuestionLimit);
-  const auto stream = session.connection.control->WatchLeases(&context, request);
-  v1::WatchLeasesResponse board;
-  const bool read = stream->Read(&board);
-  context.TryCancel();
-  v1::WatchLeasesResponse later;
-  while (stream->Read(&later)) continue;
-  const grpc::Status status = stream->Finish();
-  if (!read) session.connection.check(status);
-  return board;
-}
-
-void print_released(const v1::RearmResponse& response) {
-  for (const v1::Latch& latch : response.latches()) {
-    print_line(
-        fmt::format("released: the stop of {} by {} at {}", scope_text(latch), latch.by(), time_text(latch.time())));
-  }
-  print_line(fmt::format("{} may move again", scope_text(response)));
-}
-
-// Explains that nothing was rearmed. A lease of another caller may have a latch, which this call could not end.
-std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
-  for (const v1::Lease& lease : board.leases()) {
-    if (!lease.has_latch()) continue;
-    return fmt::format(
-        "you have no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` as its holder, or inside its "
-        "`axisctl lease run`",
-        lease.holder(), scope_text(lease.latch()));
-  }
-  for (const v1::HeldBack& one : board.held_back()) {
-    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.who(), scope_text(one.latch()));
-  }
-  return "there is no latch";
-}
-
-}  // namespace
-
-int with_lease(const Session& session, int (*verb)(const Session&)) {
-  if (!session.options.wait_s) return verb(session);
-  std::vector<std::string> axes = session.options.axes;
-  for (const std::string& place : session.options.places) axes.push_back(place.substr(0, place.find('=')));
-  const HeldLease held(session, any_device(session), axes);
-  ::setenv(kLeaseVariable, lease_text(held.lease().token()).c_str(), 1);
-  return verb(session);
+v1::AtLoss at_loss_named(const std::string& word) {
+  if (word == "finish") return v1::AT_LOSS_FINISH;
+  return word == "stop" ? v1::AT_LOSS_STOP : v1::AT_LOSS_STOP_AND_RELEASE;
 }
 
 int lease_run(const Session& session) {
-  const HeldLease held(session, any_device(session), session.options.axes);
+  const HeldLease held(session, any_device(session), session.options.axes, at_loss_named(session.options.at_loss));
   return run_child(session.options.lines, kLeaseVariable, lease_text(held.lease().token()));
 }
 
@@ -137,27 +94,54 @@ int lease_hand_over(const Session& session) {
   return kDone;
 }
 
-int rearm(const Session& session) {
-  v1::RearmRequest request;
-  *request.mutable_context() = session.connection.new_call_context();
-  const v1::Device device = any_device(session);
-  request.set_device(device.name());
-  const v1::RearmResponse response =
-      session.connection.call(session.connection.control, &v1::ControlService::Stub::Rearm, request, kQuestionLimit);
-  if (session.options.json) {
-    print_json(response);
-    return kDone;
-  }
-  if (response.latches().empty()) {
-    print_line(nothing_rearmed(board_now(session, request.device())));
-  } else {
-    print_released(response);
-  }
-  if (device.has_emergency_latch()) {
-    print_line(fmt::format("the emergency stop of {} remains, and nothing moves: `axisctl clear` ends it",
-                           device.emergency_latch().who()));
-  }
-  return kDone;
+void lease_run_options(CLI::App& verb, Options& options) {
+  verb.add_option("--axes", options.axes, "numbers or names (default: all axes)")->delimiter(',')->type_name("AXES");
+  add_wait(verb, options);
+  verb.add_flag("--take-over", options.take_over,
+                "for administrators: stop the axes and end all other leases over them")
+      ->excludes("--wait");
+  verb.add_option("--at-loss", options.at_loss,
+                  "what happens to a running motion when axisctl is killed or loses its connection")
+      ->check(CLI::IsMember({"finish", "stop", "stop-and-release"}))
+      ->capture_default_str();
+  verb.add_option("--purpose", options.purpose, "why you hold the axes; others can read it")->type_name("TEXT");
+  verb.add_option("COMMAND", options.lines, "the command, after --")->required()->type_name("");
+  verb.positionals_at_end();
 }
+
+void lease_list_options(CLI::App& verb, Options& options) {
+  verb.add_flag("--follow", options.follow, "show every change, until Ctrl-C");
+}
+
+void lease_hand_over_options(CLI::App& verb, Options& options) {
+  verb.add_option("HOLDER", options.holder, "who waits, as `lease list` shows it, e.g. 'unix bert'")
+      ->required()
+      ->type_name("");
+}
+
+constexpr Verb kLeaseVerbs[] = {
+    {.words = "lease",
+     .heading = Heading::stopping,
+     .description = "exclusive use of axes: run, list, hand-over",
+     .help = "`axisctl help leases` explains them.",
+     .examples = R"(axisctl lease run --axes 1 --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm
+axisctl lease list)"},
+    {.words = "lease run",
+     .description = "hold axes while a command runs, e.g. a shell or a script",
+     .add_options = lease_run_options,
+     .run = lease_run},
+    {.words = "lease list",
+     .description = "show who holds axes, who waits for them, and who must rearm",
+     .add_options = lease_list_options,
+     .run = lease_list},
+    {.words = "lease hand-over",
+     .description = "give your axes to somebody who waits; type it in the shell that `lease run` opened",
+     .add_options = lease_hand_over_options,
+     .run = lease_hand_over},
+};
+
+}  // namespace
+
+std::span<const Verb> lease_verbs() { return kLeaseVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <semaphore.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -17,30 +18,30 @@
 namespace axisgate::axisctl {
 namespace {
 
-sem_t ended;  // posted by a signal, or when the call is over
+sem_t record_ended;  // posted by a signal, or when the call is over
 volatile std::sig_atomic_t by_signal = 0;
 
-void end(int) {
+void end_record(int) {
   by_signal = 1;
-  sem_post(&ended);
+  sem_post(&record_ended);
 }
 
 // EndedBySignal lets Ctrl-C, SIGTERM and SIGHUP end a call normally. Only one object may exist at a time.
 class EndedBySignal {
  public:
   explicit EndedBySignal(grpc::ClientContext& call) {
-    sem_init(&ended, 0, 0);
-    on_end_signals(end, 0);
+    sem_init(&record_ended, 0, 0);
+    on_end_signals(end_record, 0);
     // A thread cancels the call, because gRPC must not be called from a signal handler.
     waiter_ = std::thread([&call] {
-      while (sem_wait(&ended) != 0 && errno == EINTR) {
+      while (sem_wait(&record_ended) != 0 && errno == EINTR) {
       }
       call.TryCancel();
     });
   }
 
   ~EndedBySignal() {
-    sem_post(&ended);
+    sem_post(&record_ended);
     waiter_.join();
   }
 
@@ -57,8 +58,6 @@ v1::RecordRequest make_request(const Session& session) {
   request.set_follow(!session.options.no_follow);
   return request;
 }
-
-}  // namespace
 
 int record(const Session& session) {
   const v1::RecordRequest request = make_request(session);
@@ -81,5 +80,28 @@ int record(const Session& session) {
   if (!in_time && !signal.came()) session.connection.check(status);
   return kDone;
 }
+
+void record_options(CLI::App& verb, Options& options) {
+  verb.add_option("--output", options.output, "the file to write (default: the standard output)")->type_name("FILE");
+  CLI::Option* no_follow = verb.add_flag("--no-follow", options.no_follow, "only the last minutes");
+  CLI::Option* only_new = verb.add_flag("--new", options.only_new, "without the last minutes");
+  CLI::Option* seconds = verb.add_option("--seconds", options.seconds, "end after this time");
+  seconds->check(CLI::Range(1, 1'000'000))->type_name("S");
+  no_follow->excludes(only_new)->excludes(seconds);
+}
+
+constexpr Verb kRecordVerbs[] = {
+    {.words = "record",
+     .heading = Heading::raw,
+     .description = "print the serial traffic: the last minutes, then all that follows until Ctrl-C",
+     .examples = "axisctl record --seconds 1 --output stage.recording",
+     .add_options = record_options,
+     .run = record,
+     .has_json = false},
+};
+
+}  // namespace
+
+std::span<const Verb> record_verbs() { return kRecordVerbs; }
 
 }  // namespace axisgate::axisctl

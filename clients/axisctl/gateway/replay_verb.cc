@@ -1,6 +1,7 @@
 // replay: feeds recordings to the core of this program's version. Needs no daemon.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -68,8 +69,6 @@ shrc203::ReplayReport replay_part(const Part& part, const std::string& name) {
   return shrc203::replay(*recording);
 }
 
-}  // namespace
-
 int replay(const Session& session) {
   const std::string name = session.options.file == "-" ? "standard input" : session.options.file;
   std::uint64_t exchanges = 0;
@@ -95,5 +94,25 @@ int replay(const Session& session) {
   print_line(fmt::format("{}: {} exchanges, no difference", name, exchanges));
   return kDone;
 }
+
+void replay_options(CLI::App& verb, Options& options) {
+  verb.add_option("FILE", options.file, "a recording or a support report; - reads the standard input")
+      ->required()
+      ->type_name("");
+}
+
+constexpr Verb kReplayVerbs[] = {
+    {.words = "replay",
+     .heading = Heading::raw,
+     .description = "for developers: run recorded traffic through this version; moves nothing",
+     .examples = "axisctl replay stage.recording",
+     .add_options = replay_options,
+     .run = replay,
+     .has_json = false},
+};
+
+}  // namespace
+
+std::span<const Verb> replay_verbs() { return kReplayVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,9 +1,12 @@
 // sim: simulates the actions of a person at a simulated device.
+#include <CLI/CLI.hpp>
+
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
+namespace {
 
 int simulate(const Session& session) {
   v1::OperateRequest request;
@@ -20,5 +23,23 @@ int simulate(const Session& session) {
   }
   return kDone;
 }
+
+void sim_options(CLI::App& verb, Options& options) {
+  verb.add_option("COMMAND", options.lines, "`help` lists them")->required()->type_name("");
+}
+
+constexpr Verb kSimVerbs[] = {
+    {.words = "sim",
+     .heading = Heading::raw,
+     .description = "simulator only: press buttons, switch inputs, trip limits, unplug",
+     .help = "For a simulated device: what a person can do at the controller. `axisctl sim help` lists the commands.",
+     .examples = "axisctl sim help\naxisctl sim inputs 5\naxisctl sim limit 1 cw off\naxisctl sim position",
+     .add_options = sim_options,
+     .run = simulate},
+};
+
+}  // namespace
+
+std::span<const Verb> sim_verbs() { return kSimVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -58,8 +59,6 @@ void copy_report(const Session& session, Output& output) {
   session.connection.check(reader->Finish());
 }
 
-}  // namespace
-
 int support(const Session& session) {
   const std::string& named = session.options.output;
   Output output(named.empty() ? default_name() : named);
@@ -78,5 +77,25 @@ int support(const Session& session) {
   }
   return kDone;
 }
+
+void support_options(CLI::App& verb, Options& options) {
+  verb.add_option("--output", options.output,
+                  "the file to write (default: axisgate-support-TIME.txt); - is the standard output")
+      ->type_name("FILE");
+}
+
+constexpr Verb kSupportVerbs[] = {
+    {.words = "support",
+     .heading = Heading::raw,
+     .description = "write a support report, without serial numbers and names of people",
+     .examples = "axisctl support --output report.txt",
+     .add_options = support_options,
+     .run = support,
+     .has_json = false},
+};
+
+}  // namespace
+
+std::span<const Verb> support_verbs() { return kSupportVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
+#include <CLI/CLI.hpp>
 #include <ctime>
 #include <string>
 
@@ -37,8 +38,6 @@ std::string token_text(const v1::Token& token) {
   const bool expired = TimeUtil::TimestampToTimeT(token.expire_time()) <= std::time(nullptr);
   return begin + (expired ? "expired " : "expires ") + time_text(token.expire_time());
 }
-
-}  // namespace
 
 int who_am_i(const Session& session) {
   const v1::GetCallerResponse caller = session.connection.call(
@@ -85,5 +84,45 @@ int token_revoke(const Session& session) {
   print_line(fmt::format("{} is revoked", session.options.name));
   return kDone;
 }
+
+void token_create_options(CLI::App& verb, Options& options) {
+  verb.add_option("NAME", options.name, "the name: NAME calls as 'token NAME'")->required()->type_name("");
+  verb.add_option("--role", options.role, "what a caller with this token may do")
+      ->check(CLI::IsMember({"observer", "operator", "admin"}))
+      ->capture_default_str();
+  verb.add_option("--days", options.days, "days until it expires")
+      ->check(CLI::Range(1, 3650))
+      ->capture_default_str()
+      ->type_name("DAYS");
+}
+
+void token_revoke_options(CLI::App& verb, Options& options) {
+  verb.add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
+}
+
+constexpr Verb kTokenVerbs[] = {
+    {.words = "whoami",
+     .heading = Heading::looking,
+     .description = "show your name and role, as the daemon identifies you",
+     .examples = "axisctl whoami",
+     .run = who_am_i},
+    {.words = "token",
+     .heading = Heading::stopping,
+     .description = "for administrators: access tokens: create, list, revoke",
+     .examples = "axisctl token create night-scan --days 30\naxisctl token list\naxisctl token revoke night-scan"},
+    {.words = "token create",
+     .description = "create a token and print it; to use it, set AXISGATE_TOKEN to it",
+     .add_options = token_create_options,
+     .run = token_create},
+    {.words = "token list", .description = "show the tokens, with role and expiry", .run = token_list},
+    {.words = "token revoke",
+     .description = "refuse all further calls with this token",
+     .add_options = token_revoke_options,
+     .run = token_revoke},
+};
+
+}  // namespace
+
+std::span<const Verb> token_verbs() { return kTokenVerbs; }
 
 }  // namespace axisgate::axisctl

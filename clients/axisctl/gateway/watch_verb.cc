@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -98,8 +99,24 @@ class Watcher {
   bool seen_any_ = false;
 };
 
+int watch(const Session& session) { Watcher(session).run(); }
+
+void watch_options(CLI::App& verb, Options& options) {
+  verb.add_option("--from", options.from_revision, "the first event wanted (default: the next one)")
+      ->type_name("REVISION");
+}
+
+constexpr Verb kWatchVerbs[] = {
+    {.words = "watch",
+     .heading = Heading::looking,
+     .description = "print every event (motions, stops, errors), each with its revision: its number",
+     .examples = "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C",
+     .add_options = watch_options,
+     .run = watch},
+};
+
 }  // namespace
 
-int watch(const Session& session) { Watcher(session).run(); }
+std::span<const Verb> watch_verbs() { return kWatchVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,62 +1,23 @@
-// history, audit: shows what has happened, verifies the journal, and erases a name from the journal.
+// audit verify, erase: verifies the journal, and erases a name from it.
 #include <fmt/format.h>
-#include <google/protobuf/util/time_util.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <chrono>
-#include <ctime>
+#include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "clients/axisctl/failure.h"
-#include "clients/axisctl/gateway/kept_recording.h"
-#include "clients/axisctl/history/history_csv.h"
-#include "clients/axisctl/history/history_reader.h"
-#include "clients/axisctl/history/history_text.h"
-#include "clients/axisctl/history/night.h"
-#include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
 namespace {
 
-using google::protobuf::util::TimeUtil;
-
 // Deadline of calls that read the whole journal.
 constexpr std::chrono::seconds kJournalLimit{600};
-
-// Converts the value of --outcome, such as "failed"; UNSPECIFIED if it is empty.
-v1::MotionState outcome_of(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  v1::MotionState outcome = v1::MOTION_STATE_UNSPECIFIED;
-  v1::MotionState_Parse("MOTION_STATE_" + text, &outcome);
-  return outcome;
-}
-
-v1::ListHistoryRequest request_of(const Session& session) {
-  const Options& options = session.options;
-  v1::ListHistoryRequest request;
-  request.set_device(options.device);
-  request.set_who(options.who);
-  if (options.motion) {
-    request.set_motion(fmt::format("{}/motions/{}", chosen_device(session).name(), *options.motion));
-    request.set_order(v1::ListHistoryRequest::ORDER_OLDEST_FIRST);
-  }
-  if (!options.axis.empty()) {
-    const v1::Device device = chosen_device(session);
-    request.set_device(device.name());
-    request.set_axis(find_axis(device, options.axis).number());
-  }
-  request.set_outcome(outcome_of(options.outcome));
-  request.set_text(options.text);
-  if (options.hours)
-    *request.mutable_start_time() = TimeUtil::SecondsToTimestamp(std::time(nullptr) - *options.hours * 3600L);
-  return request;
-}
 
 std::string hex(std::string_view bytes) {
   std::string text;
@@ -95,37 +56,6 @@ std::string damage_text(const std::string& fault) {
          "directory)";
 }
 
-// Prints the summary of one motion from its entries, oldest first, and the command for its recording if the daemon
-// still has it.
-void print_life(const Session& session, const std::vector<v1::HistoryEntry>& entries) {
-  print_line(life_text(*session.options.motion, entries));
-  if (entries.empty()) return;
-  const auto at = place_in_recording(session, entries.front().device(), entries.front().time());
-  if (at) print_line(record_text(entries.front(), *at));
-}
-
-}  // namespace
-
-int history(const Session& session) {
-  const Options& options = session.options;
-  if (options.night) return show_night(session);
-  const v1::ListHistoryRequest request = request_of(session);
-  std::vector<v1::HistoryEntry> life;
-  const auto show = [&](const v1::HistoryEntry& entry) {
-    if (options.json) return print_json(entry);
-    if (options.csv) return print_line(csv_row(entry));
-    print_line(line_of(entry));
-    if (!options.motion) return;
-    for (const std::string& exchanged : exchanges_of(entry)) print_line(exchanged);
-    life.push_back(entry);
-  };
-  if (options.csv) print_line(kCsvHeader);
-  if (options.follow) follow_history(session, request, show);
-  list_history(session, request, show);
-  if (options.motion && !options.json && !options.csv) print_life(session, life);
-  return kDone;
-}
-
 int audit_verify(const Session& session) {
   v1::VerifyJournalRequest request;
   if (!session.options.head.empty()) *request.mutable_noted() = head_of(session.options.head);
@@ -162,5 +92,42 @@ int audit_erase(const Session& session) {
   print_line("other files may have the name: `axisctl help audit` lists them");
   return kDone;
 }
+
+void audit_verify_options(CLI::App& verb, Options& options) {
+  verb.add_option("--head", options.head, "a head that was printed before: checks that nothing up to there was changed")
+      ->type_name("HEAD");
+}
+
+void audit_erase_options(CLI::App& verb, Options& options) {
+  verb.add_option("NAME", options.who, "as `history` shows it, e.g. 'unix anna'")->required()->type_name("");
+  verb.add_flag("--yes", options.yes, "do it: nothing brings the name back");
+}
+
+constexpr Verb kAuditVerbs[] = {
+    {.words = "audit",
+     .heading = Heading::looking,
+     .description = "for the journal of `history`: verify, erase",
+     .help =
+         R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added,
+or says what else of the file is damaged.
+Who can write the file could compute all hashes again. So note the head that it prints, and check it later.
+
+For administrators: `audit erase 'unix anna' --yes` puts "erased N" in the place of a name, in every entry and in the
+bytes of the file. The chain of hashes is unchanged. The name may also be in the log of the daemon, in recordings, in
+requests that the daemon remembers for a day, and in other files: docs/sharing.md lists them.)",
+     .examples = "axisctl audit verify"},
+    {.words = "audit verify",
+     .description = "check that the journal is as it was written, and print its head",
+     .add_options = audit_verify_options,
+     .run = audit_verify},
+    {.words = "audit erase",
+     .description = "for administrators: erase the name of a caller from the journal, for ever",
+     .add_options = audit_erase_options,
+     .run = audit_erase},
+};
+
+}  // namespace
+
+std::span<const Verb> audit_verbs() { return kAuditVerbs; }
 
 }  // namespace axisgate::axisctl
