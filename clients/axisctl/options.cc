@@ -1,10 +1,9 @@
-// Parsing of the command line. CLI11 takes eight seconds to compile, so only this file, option_bytes.cc,
-// setting_options.cc, history_options.cc and mill_options.cc include it.
+// Parsing of the command line with CLI11: the options of axisctl, its verbs, and its help. The options of a verb are
+// beside its function.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <utility>
+#include <string_view>
 
 #include "clients/axisctl/addresses.h"
 #include "clients/axisctl/failure.h"
@@ -15,15 +14,6 @@
 #include "clients/axisctl/verb_options.h"
 
 namespace axisgate::axisctl {
-
-CLI::App* add_verb(CLI::App& app, Options& options, OldVerb verb, const char* name, const char* description) {
-  CLI::App* added = app.add_subcommand(name, description);
-  added->fallthrough();
-  added->footer(help_text(name));
-  added->callback([&options, verb] { options.old_verb = verb; });
-  return added;
-}
-
 namespace {
 
 constexpr const char* kExitCodes = R"(
@@ -61,7 +51,7 @@ const char* heading_text(Heading heading) {
 }
 
 // Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
-void add_row(CLI::App& app, Options& options, const Verb& verb) {
+void add_verb(CLI::App& app, Options& options, const Verb& verb) {
   const std::size_t space = verb.words.find(' ');
   const bool is_below = space != std::string_view::npos;
   CLI::App& above = is_below ? *app.get_subcommand(std::string(verb.words.substr(0, space))) : app;
@@ -69,7 +59,7 @@ void add_row(CLI::App& app, Options& options, const Verb& verb) {
       *above.add_subcommand(std::string(verb.words.substr(is_below ? space + 1 : 0)), std::string(verb.description));
   added.group(is_below ? "Commands" : heading_text(verb.heading));
   added.fallthrough();
-  added.footer(text_of(verb.help, verb.examples));
+  added.footer(help_text(verb.help, verb.examples));
   if (verb.run == nullptr && verb.run_without_daemon == nullptr) {
     added.require_subcommand(1);
     return;
@@ -99,29 +89,10 @@ void add_target(CLI::App& app, Target& target) {
   key->needs(certificate);
 }
 
-// Sets the headings of `axisctl help`.
-void set_groups(CLI::App& app) {
-  struct Group {
-    const char* heading;
-    std::vector<std::string> verbs;
-  };
-  const Group groups[] = {
-      {"Looking", {"devices", "status", "position", "watch", "motions", "history", "audit", "whoami"}},
-      {"Moving", {"home", "move", "path", "line", "arc", "scan", "jog", "save", "positions", "go", "forget"}},
-      {"Stopping and sharing", {"stop", "cancel", "estop", "withdraw", "rearm", "clear", "lease", "token"}},
-      {"Settings",
-       {"settings", "speed", "motor", "loop", "divisions", "settle", "sleep", "wake", "display", "beep", "mode",
-        "dialect", "reset", "zero", "unzero", "preset", "outputs", "inputs", "trigger"}},
-      {"Raw commands, simulator and recordings", {"exec", "commands", "sim", "record", "replay", "support"}},
-      {"Mills", {"mill"}},
-      {"Help", {"help"}},
-  };
-  for (const Group& group : groups) {
-    for (const std::string& verb : group.verbs) app.get_subcommand(verb)->group(group.heading);
-  }
-}
-
 int list_examples() {
+  for (const Verb* verb : verbs()) {
+    if (!verb->examples.empty()) print_line(verb->examples);
+  }
   for (const HelpTopic& topic : help_topics()) print_line(topic.examples);
   return kDone;
 }
@@ -137,7 +108,7 @@ int show_help(CLI::App& app, const std::string& topic) {
     return kDone;
   } catch (const CLI::OptionNotFound&) {
   }
-  const std::string text = help_text(topic);
+  const std::string text = topic_text(topic);
   if (!text.empty()) {
     print_line(text);
     return kDone;
@@ -171,17 +142,15 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
                  "id of the request; if it comes again with the same id, it does not act again (default: a new one)")
       ->type_name("ID");
   app.add_flag("--json", options.json, "print one JSON object per line");
-  app.group("Commands");  // heading that the verbs below a verb inherit
-  for (const Verb* verb : verbs()) add_row(app, options, *verb);
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
-  add_mill_verbs(app, options);
+  for (const Verb* verb : verbs()) add_verb(app, options, *verb);
   CLI::App* help = app.add_subcommand(
       "help", "show this, or explain a command or a topic: units, paths, scans, leases, settings, triggers");
   help->add_option("TOPIC", help_topic)->type_name("");
   help->add_flag("--list-examples", examples)->group("");
-  set_groups(app);
-  app.footer(help_text("") + kExitCodes);  // set last, otherwise every verb's help would repeat it
+  help->group(heading_text(Heading::help));
+  app.footer(topic_text("") + kExitCodes);  // set last, otherwise every verb's help would repeat it
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp& call) {
@@ -194,7 +163,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
     return other->exit_code;
   }
   if (help->parsed()) return examples ? list_examples() : show_help(app, help_topic);
-  if (options.json && options.verb != nullptr && !options.verb->has_json) {
+  if (options.json && !options.verb->has_json) {
     print_failure(usage("this command has no JSON output", "leave out --json"));
     return kUsage;
   }

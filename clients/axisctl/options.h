@@ -11,28 +11,6 @@ namespace axisgate::axisctl {
 
 struct Verb;
 
-enum class OldVerb {
-  mill_check,
-  mill_preview,
-  mill_send,
-  mill_queue,
-  mill_confirm,
-  mill_start,
-  mill_watch,
-  mill_pause,
-  mill_resume,
-  mill_abort,
-  mill_cancel,
-  mill_clear,
-  mill_first,
-  mill_done,
-  mill_jog,
-  mill_origin,
-  mill_spindle,
-  mill_raise,
-  mill_again
-};
-
 // Address of the daemon, and how to connect to it.
 struct Target {
   std::string address;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
@@ -84,7 +62,6 @@ struct Options {
   bool json = false;
   std::string request_id;      // request id of mutations; empty: a new id for each
   const Verb* verb = nullptr;  // the verb that was requested
-  OldVerb old_verb{};          // if verb is null
 
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names of axes
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"

@@ -21,10 +21,4 @@ void add_waiting(CLI::App& verb, Options& options);
 // Adds the options --speed and --acceleration-ms. `description` is that of --speed.
 void add_speed(CLI::App& verb, Options& options, const char* description);
 
-// Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
-CLI::App* add_verb(CLI::App& app, Options& options, OldVerb verb, const char* name, const char* description);
-
-// Defined in mill_options.cc.
-void add_mill_verbs(CLI::App& app, Options& options);
-
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// Functions that run the verbs, one each. Each returns its exit code, or throws Failure.
+// Groups of verbs: one function for each file that has verbs, defined there.
 #pragma once
 
 #include <span>
@@ -32,26 +32,13 @@ std::span<const Verb> support_verbs();
 std::span<const Verb> settings_verbs();
 std::span<const Verb> coordinate_verbs();
 std::span<const Verb> signal_verbs();
-
-int mill_send(const Session& session);
-int mill_queue(const Session& session);
-int mill_confirm(const Session& session);
-int mill_start(const Session& session);
-int mill_watch(const Session& session);
-int mill_pause(const Session& session);
-int mill_resume(const Session& session);
-int mill_abort(const Session& session);
-int mill_cancel(const Session& session);
-int mill_clear(const Session& session);
-int mill_first(const Session& session);
-int mill_done(const Session& session);
-int mill_jog(const Session& session);
-int mill_origin(const Session& session);
-int mill_spindle(const Session& session);
-int mill_raise(const Session& session);
-int mill_again(const Session& session);
-// Runs `mill send --rest-of`.
-int mill_send_rest(const Session& session);
+std::span<const Verb> mill_verbs();
+std::span<const Verb> mill_send_verbs();
+std::span<const Verb> mill_repeat_verbs();
+std::span<const Verb> mill_queue_verbs();
+std::span<const Verb> mill_confirm_verbs();
+std::span<const Verb> mill_job_verbs();
+std::span<const Verb> mill_hand_verbs();
 
 // Runs a verb. With --wait, first waits for a lease and runs the verb under it.
 int with_lease(const Session& session, int (*verb)(const Session&));

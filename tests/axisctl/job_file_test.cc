@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "clients/axisctl/failure.h"
-#include "clients/axisctl/verbs.h"
 #include "tests/axisctl/scripted_mill.h"
 
 namespace axisgate::axisctl {
@@ -67,11 +66,11 @@ TEST_F(JobFile, IsRefusedIfItGrowsMeanwhile) {
 // A missing file is reported without a call to the daemon.
 TEST_F(JobFile, IsLookedAtBeforeTheDaemonIsAsked) {
   options_.job.files = {folder_ / "missing.rml"};
-  EXPECT_EQ(run(mill_send).exit_code, kUsage);
+  EXPECT_EQ(run("mill send").exit_code, kUsage);
   EXPECT_TRUE(mill_.calls.empty());
   mill_.mill.set_job_bytes_at_most(9);
   options_.job.files = {name_};
-  EXPECT_THAT(run(mill_send).message, HasSubstr("has 10 bytes"));
+  EXPECT_THAT(run("mill send").message, HasSubstr("has 10 bytes"));
   EXPECT_TRUE(mill_.sent.empty());
 }
 

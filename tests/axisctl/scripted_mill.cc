@@ -3,10 +3,12 @@
 #include <google/protobuf/util/time_util.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/verb.h"
 
 namespace axisgate::axisctl {
 
@@ -170,11 +172,13 @@ MillVerbs::~MillVerbs() {
   std::filesystem::remove_all(folder_);
 }
 
-Ended MillVerbs::run(int (*verb)(const Session&)) {
+Ended MillVerbs::run(std::string_view words) {
+  const std::vector<const Verb*> all = verbs();
+  const Verb& verb = **std::ranges::find(all, words, &Verb::words);
   Ended ended;
   ::testing::internal::CaptureStdout();
   try {
-    ended.exit_code = verb(Session{options_, Connection(options_.target, options_.request_id)});
+    ended.exit_code = verb.run(Session{options_, Connection(options_.target, options_.request_id)});
   } catch (const Failure& failure) {
     ended.exit_code = failure.exit_code;
     ended.reason = failure.reason;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "axisgate/v1/device.grpc.pb.h"
@@ -82,7 +83,8 @@ class MillVerbs : public ::testing::Test {
   MillVerbs();
   ~MillVerbs() override;
 
-  Ended run(int (*verb)(const Session&));
+  // Runs the verb with these words, such as "mill send".
+  Ended run(std::string_view words);
 
   // Adds a device to the daemon's list.
   void add_device(const std::string& name, const std::string& kind);

@@ -23,4 +23,7 @@ std::string wanted_job(const Session& session, const v1::Mill& mill);
 // Like wanted_job(), but without a number returns the first job that is FED.
 std::string fed_job(const Session& session, const v1::Mill& mill);
 
+// Runs `mill send --rest-of`. Defined beside `mill again`, which makes the same call.
+int mill_send_rest(const Session& session);
+
 }  // namespace axisgate::axisctl

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <iostream>
@@ -9,6 +10,7 @@
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/mill/job_follower.h"
+#include "clients/axisctl/mill/job_number.h"
 #include "clients/axisctl/mill/mill_calls.h"
 #include "clients/axisctl/mill/mill_text.h"
 #include "clients/axisctl/print.h"
@@ -61,8 +63,6 @@ int start_confirmed(const Session& session, const v1::Job& job) {
   }
 }
 
-}  // namespace
-
 int mill_confirm(const Session& session) {
   const Options& options = session.options;
   check_person(options);
@@ -80,5 +80,23 @@ int mill_confirm(const Session& session) {
   options.json ? print_json(response) : print_line(confirmed_text(response.job()));
   return options.job.start ? start_confirmed(session, job) : kDone;
 }
+
+void mill_confirm_options(CLI::App& verb, Options& options) {
+  add_job_number(verb, options, "its number (default: the first that waits)");
+  verb.add_flag("--yes", options.yes, "all is set up: do not ask");
+  CLI::Option* starts = verb.add_flag("--start", options.job.start, "start the job, too");
+  verb.add_flag("--follow", options.follow, "show the job until it has ended")->needs(starts);
+}
+
+constexpr Verb kMillConfirmVerbs[] = {
+    {.words = "mill confirm",
+     .description = "at the mill: say that all is set up for a job",
+     .add_options = mill_confirm_options,
+     .run = mill_confirm},
+};
+
+}  // namespace
+
+std::span<const Verb> mill_confirm_verbs() { return kMillConfirmVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,6 +1,7 @@
 // mill jog, origin, spindle, raise: manual operation of a mill, without a job.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cctype>
 #include <charconv>
 #include <string>
@@ -48,8 +49,6 @@ int operate(const Session& session, v1::OperateMillRequest request, std::string_
   return kDone;
 }
 
-}  // namespace
-
 int mill_jog(const Session& session) {
   v1::OperateMillRequest request;
   for (const std::string& text : session.options.job.distances) add_distance(text, *request.mutable_step());
@@ -76,5 +75,46 @@ int mill_raise(const Session& session) {
   request.mutable_raise();
   return operate(session, request, "spindle off and tool up");
 }
+
+void mill_jog_options(CLI::App& verb, Options& options) {
+  verb.add_option("AXIS=MM", options.job.distances, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
+      ->required()
+      ->type_name("");
+  verb.add_option("--speed", options.job.mm_per_s, "in mm/s (default: the mill's)")->type_name("MM/S");
+}
+
+void mill_origin_options(CLI::App& verb, Options& options) {
+  CLI::Option* name = verb.add_option("NAME", options.job.origin,
+                                      "an origin of the configuration that has a height (default: where the tool is)");
+  name->type_name("");
+  verb.add_option("--z", options.job.z, "a machine coordinate, in steps")->type_name("STEPS")->excludes(name);
+}
+
+void mill_spindle_options(CLI::App& verb, Options& options) {
+  verb.add_option("on|off", options.job.spindle, "whether it turns")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("");
+}
+
+constexpr Verb kMillHandVerbs[] = {
+    {.words = "mill jog",
+     .description = "move the tool by a short step, unchecked; the spindle stops before it",
+     .add_options = mill_jog_options,
+     .run = mill_jog},
+    {.words = "mill origin",
+     .description = "set Z0; X and Y are set at the mill's panel",
+     .add_options = mill_origin_options,
+     .run = mill_origin},
+    {.words = "mill spindle",
+     .description = "start or stop the spindle",
+     .add_options = mill_spindle_options,
+     .run = mill_spindle},
+    {.words = "mill raise", .description = "stop the spindle, and raise the tool to the top", .run = mill_raise},
+};
+
+}  // namespace
+
+std::span<const Verb> mill_hand_verbs() { return kMillHandVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,12 +1,14 @@
-// mill queue, start, pause, resume, abort, cancel, clear, first, done: the verbs that make a single request to a mill.
+// mill start, watch, pause, resume, abort, cancel, clear, first, done: the verbs that make a single request to a mill.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/mill/job_follower.h"
+#include "clients/axisctl/mill/job_number.h"
 #include "clients/axisctl/mill/job_places.h"
 #include "clients/axisctl/mill/mill_calls.h"
 #include "clients/axisctl/mill/mill_text.h"
@@ -49,18 +51,6 @@ int choose_rest(const Session& session) {
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ContinueJob, request, kStartLimit);
   return report_answer(session, response, rest_text(response.job()));
-}
-
-}  // namespace
-
-int mill_queue(const Session& session) {
-  const v1::Mill mill = mill_now(session, chosen_mill(session));
-  if (session.options.json) {
-    print_json(mill);
-  } else {
-    for (const std::string& line : queue_lines(mill)) print_line(line);
-  }
-  return kDone;
 }
 
 int mill_start(const Session& session) {
@@ -135,5 +125,71 @@ int mill_done(const Session& session) {
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ReportJobDone, request, kQuestionLimit);
   return report_answer(session, response, fmt::format("job {} is DONE", last_part(request.job())));
 }
+
+void mill_start_options(CLI::App& verb, Options& options) {
+  add_job_number(verb, options, "its number (default: the first that waits)");
+  verb.add_flag("--follow", options.follow, "show the job until it has ended");
+}
+
+void mill_pause_options(CLI::App& verb, Options& options) {
+  verb.add_flag("--raise", options.job.raise, "raise the tool after the last sent byte, and stop the spindle");
+}
+
+void mill_resume_options(CLI::App& verb, Options& options) {
+  CLI::Option* job = add_job_number(verb, options, "the number of a job that is PAUSED or PAUSED_UNKNOWN");
+  verb.add_option("--from", options.job.from,
+                  "the line of its file, or line and column, with whose first command it continues")
+      ->needs(job)
+      ->type_name("LINE[:COLUMN]");
+}
+
+void mill_clear_options(CLI::App& verb, Options& options) {
+  verb.add_option("WHO", options.who, "their owner as `mill queue` shows it, e.g. 'unix anna'")
+      ->required()
+      ->type_name("");
+}
+
+void add_required_job(CLI::App& verb, Options& options) { add_job_number(verb, options, "its number")->required(); }
+
+void mill_done_options(CLI::App& verb, Options& options) {
+  add_job_number(verb, options, "its number (default: the one that is FED)");
+}
+
+constexpr Verb kMillJobVerbs[] = {
+    {.words = "mill start",
+     .description = "start a job that is confirmed",
+     .add_options = mill_start_options,
+     .run = mill_start},
+    {.words = "mill watch", .description = "show the job that runs until it has ended", .run = mill_watch},
+    {.words = "mill pause",
+     .description = "send no more of the job; what was sent runs on",
+     .add_options = mill_pause_options,
+     .run = mill_pause},
+    {.words = "mill resume",
+     .description = "send the rest of the job that is paused; with JOB, choose where that one continues",
+     .add_options = mill_resume_options,
+     .run = mill_resume},
+    {.words = "mill abort", .description = "end the job that runs; look at the mill afterwards", .run = mill_abort},
+    {.words = "mill cancel",
+     .description = "take a job out of the queue",
+     .add_options = add_required_job,
+     .run = mill_cancel},
+    {.words = "mill clear",
+     .description = "for administrators: take a caller's waiting jobs out of the queue",
+     .add_options = mill_clear_options,
+     .run = mill_clear},
+    {.words = "mill first",
+     .description = "move a job to the front of the queue",
+     .add_options = add_required_job,
+     .run = mill_first},
+    {.words = "mill done",
+     .description = "say that the workpiece of a job was seen",
+     .add_options = mill_done_options,
+     .run = mill_done},
+};
+
+}  // namespace
+
+std::span<const Verb> mill_job_verbs() { return kMillJobVerbs; }
 
 }  // namespace axisgate::axisctl

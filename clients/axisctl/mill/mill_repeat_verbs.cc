@@ -1,6 +1,7 @@
 // mill again, and mill send --rest-of: queue an ended job, or the rest of it, as a new job.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 
@@ -29,11 +30,27 @@ int repeat(const Session& session, const v1::RepeatJobRequest& request) {
   return kDone;
 }
 
-}  // namespace
-
 int mill_again(const Session& session) {
   return repeat(session, repeat_request(session, session.options.job.number.value()));
 }
+
+void mill_again_options(CLI::App& verb, Options& options) {
+  verb.add_option("JOB", options.job.number, "its number")->required()->type_name("");
+  verb.add_option("--accept", options.job.accepted,
+                  "warnings that the check finds now, beside those that were accepted for it")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+}
+
+constexpr Verb kMillRepeatVerbs[] = {
+    {.words = "mill again",
+     .description = "queue a job that has ended once more, as a new job",
+     .add_options = mill_again_options,
+     .run = mill_again},
+};
+
+}  // namespace
 
 int mill_send_rest(const Session& session) {
   const JobOptions& job = session.options.job;
@@ -53,5 +70,7 @@ int mill_send_rest(const Session& session) {
   }
   return repeat(session, request);
 }
+
+std::span<const Verb> mill_repeat_verbs() { return kMillRepeatVerbs; }
 
 }  // namespace axisgate::axisctl

@@ -1,6 +1,7 @@
 // mill send: reads the files of a job whole, so that the job can be sent again, and sends the job into a mill's queue.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -56,8 +57,6 @@ void set_stock(const std::string& text, v1::Stock& into) {
   into.set_z_mm(stock.z);
 }
 
-}  // namespace
-
 int mill_send(const Session& session) {
   const JobOptions& job = session.options.job;
   if (job.rest_of) return mill_send_rest(session);
@@ -93,5 +92,57 @@ int mill_send(const Session& session) {
   session.options.json ? print_json(response) : print_line(state_text(response.job()));
   return kDone;
 }
+
+void mill_send_options(CLI::App& verb, Options& options) {
+  JobOptions& job = options.job;
+  verb.add_option("FILE", job.files,
+                  "the job; - reads the standard input; of several files the tool is changed between")
+      ->type_name("");
+  verb.add_option("--tool", job.tools,
+                  "a tool of the configuration (default: its first); of several files one for each, e.g. T1,T3")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  verb.add_option("--origin", job.origin,
+                  "a work origin of the configuration (default: as it is set at the mill's panel)")
+      ->type_name("NAME");
+  verb.add_option(
+          "--streaming", job.streaming,
+          "paced, or full: as fast as the mill takes it, so more runs on after an abort (default: as configured)")
+      ->check(CLI::IsMember({"paced", "full"}))
+      ->type_name("HOW");
+  verb.add_option("--stock", job.stock, "the workpiece in mm, from the work origin, and its thickness")
+      ->type_name("X,Y,Z");
+  verb.add_option(
+          "--made-for,--profile", job.made_for,
+          "the profile that the job was made for: warns where the mill has another (default: judged by the job)")
+      ->type_name("NAME");
+  verb.add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
+  verb.add_option("--accept", job.accepted,
+                  "warnings of the check that do not keep the job from the queue, e.g. deep-pass,outside-stock")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  verb.add_option("--continues", job.continues,
+                  "a job that is DONE, whose workpiece this one continues: the check knows what it has removed")
+      ->type_name("JOB");
+  CLI::Option* rest = verb.add_option("--rest-of", job.rest_of,
+                                      "instead of a file: what is left of a job that was aborted, as a job of its own");
+  rest->type_name("JOB");
+  verb.add_option("--from", job.from, "the line of that job's file, or line and column, with which its rest begins")
+      ->needs(rest)
+      ->type_name("LINE[:COLUMN]");
+}
+
+constexpr Verb kMillSendVerbs[] = {
+    {.words = "mill send",
+     .description = "check a job and send it into the queue",
+     .add_options = mill_send_options,
+     .run = mill_send},
+};
+
+}  // namespace
+
+std::span<const Verb> mill_send_verbs() { return kMillSendVerbs; }
 
 }  // namespace axisgate::axisctl
