@@ -130,7 +130,6 @@ const std::vector<Row> kRows = {
 
 // Requests to the door itself, without a device.
 const std::vector<Row> kOfDoors = {
-    {Kind::ping, "ping", Role::observer, "request", Asks::nothing},
     {Kind::ask_server, "ask_server", Role::observer, "request", Asks::nothing},
     {Kind::watch_server, "watch_server", Role::observer, "stream", Asks::nothing},
     {Kind::unlisted, "unlisted", Role::admin, "request", Asks::nothing},

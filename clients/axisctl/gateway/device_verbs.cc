@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 #include <google/protobuf/util/time_util.h>
 
-#include <chrono>
 #include <optional>
 
 #include "clients/axisctl/condition_text.h"
@@ -133,15 +132,6 @@ int position(const Session& session) {
   return kDone;
 }
 
-int ping(const Session& session) {
-  const auto asked = std::chrono::steady_clock::now();
-  const v1::PingResponse answer = session.connection.call(
-      session.connection.diagnostics, &v1::DiagnosticsService::Stub::Ping, v1::PingRequest(), kQuestionLimit);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - asked;
-  session.options.json ? print_json(answer) : print_line(fmt::format("the daemon answers in {:.1f} ms", took.count()));
-  return kDone;
-}
-
 constexpr Verb kDeviceVerbs[] = {
     {.words = "devices",
      .heading = Heading::looking,
@@ -159,11 +149,6 @@ constexpr Verb kDeviceVerbs[] = {
      .description = "read and show the present positions of the axes",
      .examples = "axisctl position",
      .run = position},
-    {.words = "ping",
-     .heading = Heading::looking,
-     .description = "show that the daemon answers, and how fast",
-     .examples = "axisctl ping",
-     .run = ping},
 };
 
 }  // namespace

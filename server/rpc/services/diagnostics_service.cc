@@ -8,7 +8,6 @@
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/subscribed_stream.h"
-#include "server/rpc/calls/unary_call.h"
 #include "server/rpc/services.h"
 
 namespace axisgate::rpc {
@@ -45,13 +44,6 @@ class DiagnosticsService final : public v1::DiagnosticsService::CallbackService 
       grpc::CallbackServerContext* context, const v1::GetSupportReportRequest*) override {
     return serve<v1::GetSupportReportResponse>(diagnostics_.report(to_call(*context), {versions(), describe}),
                                                fill_text<v1::GetSupportReportResponse>);
-  }
-
-  grpc::ServerUnaryReactor* Ping(grpc::CallbackServerContext*, const v1::PingRequest*,
-                                 v1::PingResponse* response) override {
-    const auto call = UnaryCall<v1::PingResponse>::start(response);
-    call->answer([](v1::PingResponse&) {});
-    return call.get();
   }
 
  private:
