@@ -63,8 +63,7 @@ void MetricsPage::accept_later() {
 void MetricsPage::take_in(Descriptor connection) {
   std::erase_if(sessions_, [](const auto& session) { return !session->is_open(); });
   if (sessions_.size() >= limits_.connections) displace_one();
-  sessions_.push_back(std::make_shared<PageSession>(context_, limits_, [this] { return text(); }));
-  sessions_.back()->start(std::move(connection));
+  sessions_.push_back(PageSession::start(context_, std::move(connection), limits_, [this] { return text(); }));
 }
 
 // Ends the connection that has waited longest without a complete request. If all have one, ends the slowest reader,

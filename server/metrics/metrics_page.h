@@ -12,7 +12,6 @@
 #include "device/link/asio.h"
 #include "device/link/descriptor.h"
 #include "server/config/config.h"
-#include "server/metrics/page_answer.h"
 #include "server/metrics/page_limits.h"
 #include "server/metrics/page_session.h"
 

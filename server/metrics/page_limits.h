@@ -12,7 +12,8 @@ struct PageLimits {
   // Far more than a few Prometheus servers and people need. Each takes one of the descriptors that
   // connections/descriptor_limit.cc sets aside.
   std::size_t connections = 128;
-  // Prometheus sends a few hundred bytes; 8 KiB is the limit of most servers.
+  // Prometheus sends a few hundred bytes; 8 KiB is the limit of most servers. The request line is not
+  // counted.
   std::size_t head_bytes = 8192;
   // Time for a whole head. On loopback, only a busy machine needs more than a moment.
   Duration head = std::chrono::seconds(5);

@@ -1,12 +1,7 @@
 #include "server/metrics/page_session.h"
 
-#include <sys/socket.h>
-#include <sys/uio.h>
-
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <chrono>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,133 +11,191 @@
 namespace axisgate::server {
 namespace {
 
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+
 using boost::system::error_code;
+using Stream = beast::basic_stream<boost::asio::ip::tcp, boost::asio::io_context::executor_type>;
+using Parser = http::request_parser<http::empty_body>;
+using Answer = http::response<http::span_body<const char>>;
 
-using Piece = std::array<char, 4096>;
+// The format that prometheus::TextSerializer writes.
+constexpr std::string_view kPageType = "text/plain; version=0.0.4; charset=utf-8";
+constexpr std::string_view kSentenceType = "text/plain; charset=utf-8";
 
-// Returns the result of recv(2).
-ssize_t receive(int socket, Piece& piece) { return ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT); }
+// Bytes that are read of the requests after the first one.
+constexpr std::size_t kReadAhead = 4096;
 
-bool is_passing(int error) { return error == EAGAIN || error == EINTR; }
+beast::string_view to_beast(std::string_view text) { return {text.data(), text.size()}; }
 
-iovec rest_of(std::string_view text, std::size_t sent) {
-  const std::string_view rest = text.substr(std::min(sent, text.size()));
-  return {const_cast<char*>(rest.data()), rest.size()};
+bool is_too_long(const error_code& error) {
+  return error == http::error::header_limit || error == http::error::buffer_overflow;
 }
 
-// Returns the result of sendmsg(2). Sends `head` and `body` as one text, so that the head needs no packet of its own.
-ssize_t send_from(int socket, std::string_view head, std::string_view body, std::size_t sent) {
-  std::array<iovec, 2> rests = {rest_of(head, sent), rest_of(body, sent - std::min(sent, head.size()))};
-  msghdr message{};
-  message.msg_iov = rests.data();
-  message.msg_iovlen = rests.size();
-  return ::sendmsg(socket, &message, MSG_DONTWAIT | MSG_NOSIGNAL);
+// A reader that ends in the middle of a request is not answered.
+bool is_malformed(const error_code& error) {
+  return error.category() == http::make_error_code(http::error::bad_method).category() &&
+         error != http::error::end_of_stream && error != http::error::partial_message;
 }
+
+class BeastSession final : public PageSession, public std::enable_shared_from_this<BeastSession> {
+ public:
+  BeastSession(Stream::socket_type socket, const PageLimits& limits, TakePageText take_text)
+      : limits_(limits),
+        take_text_(std::move(take_text)),
+        stream_(std::move(socket)),
+        received_(limits.head_bytes + kReadAhead) {}
+
+  void start() { ask(); }
+
+  void end() override {
+    error_code ignored;
+    stream_.socket().close(ignored);
+    text_ = nullptr;
+  }
+
+  bool is_open() const override { return stream_.socket().is_open(); }
+  bool is_answering() const override { return state_ == State::answering; }
+  TimePoint since() const override { return since_; }
+
+ private:
+  enum class State { asking, answering, idle, leaving };
+
+  void enter(State state, Duration limit) {
+    state_ = state;
+    since_ = monotonic_now();
+    stream_.expires_after(limit);
+  }
+
+  // Waits for the head of a request. Its own time begins with its first byte.
+  void ask() {
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(limits_.head_bytes));
+    enter(State::asking, limits_.head);
+    read_head();
+  }
+
+  void read_head() {
+    http::async_read_header(
+        stream_, received_, *parser_,
+        [self = shared_from_this()](const error_code& error, std::size_t) { self->take_head(error); });
+  }
+
+  void take_head(const error_code& error) {
+    if (!is_open()) return;
+    if (is_too_long(error)) {
+      return refuse(http::status::request_header_fields_too_large, "The head of the request is too long.\n");
+    }
+    if (is_malformed(error)) {
+      return refuse(http::status::bad_request, "This is not a request of HTTP/1.0 or HTTP/1.1.\n");
+    }
+    if (error) return end();
+    // A body is not read, and would look like the next request.
+    const bool has_body = parser_->chunked() || parser_->content_length().value_or(0) > 0;
+    keeps_alive_ = parser_->get().keep_alive() && !has_body;
+    answer();
+  }
+
+  void answer() {
+    const Parser::value_type& request = parser_->get();
+    const beast::string_view target = request.target();
+    if (target.substr(0, target.find('?')) != "/metrics") {
+      return say(http::status::not_found, "Only /metrics is here: the metrics of axisgated.\n");
+    }
+    if (request.method() == http::verb::get || request.method() == http::verb::head) {
+      return send(http::status::ok, kPageType, take_text_());
+    }
+    answer_.set(http::field::allow, "GET, HEAD");
+    say(http::status::method_not_allowed, "This page can only be read: use GET.\n");
+  }
+
+  void refuse(http::status status, std::string sentence) {
+    keeps_alive_ = false;
+    say(status, std::move(sentence));
+  }
+
+  void say(http::status status, std::string sentence) {
+    send(status, kSentenceType, std::make_shared<const std::string>(std::move(sentence)));
+  }
+
+  void send(http::status status, std::string_view type, PageText text) {
+    text_ = std::move(text);
+    answer_.version(11);
+    answer_.result(status);
+    answer_.set(http::field::content_type, to_beast(type));
+    answer_.content_length(text_->size());
+    // A reader of HTTP/1.0 does not expect that the connection stays open.
+    answer_.set(http::field::connection, keeps_alive_ ? "keep-alive" : "close");
+    answer_.body() = {text_->data(), text_->size()};
+    serializer_.emplace(answer_);
+    enter(State::answering, limits_.answer);
+    const auto then = [self = shared_from_this()](const error_code& error, std::size_t) { self->sent(error); };
+    if (parser_->get().method() == http::verb::head) {
+      http::async_write_header(stream_, *serializer_, then);
+    } else {
+      http::async_write(stream_, *serializer_, then);
+    }
+  }
+
+  void sent(const error_code& error) {
+    if (!is_open()) return;
+    text_ = nullptr;
+    serializer_.reset();
+    answer_ = {};
+    if (error) return end();
+    if (!keeps_alive_) return leave();
+    if (received_.size() > 0) return ask();
+    enter(State::idle, limits_.idle);
+    stream_.async_read_some(received_.prepare(kReadAhead),
+                            [self = shared_from_this()](const error_code& failed, std::size_t size) {
+                              if (!self->is_open()) return;
+                              if (failed) return self->end();
+                              self->received_.commit(size);
+                              self->ask();
+                            });
+  }
+
+  // Waits until the reader closes: closing first would discard the answer of a reader that still sends.
+  void leave() {
+    error_code ignored;
+    stream_.socket().shutdown(Stream::socket_type::shutdown_send, ignored);
+    enter(State::leaving, limits_.leaving);
+    discard();
+  }
+
+  void discard() {
+    received_.clear();
+    stream_.async_read_some(received_.prepare(kReadAhead),
+                            [self = shared_from_this()](const error_code& error, std::size_t) {
+                              if (!self->is_open()) return;
+                              error ? self->end() : self->discard();
+                            });
+  }
+
+  const PageLimits& limits_;
+  const TakePageText take_text_;
+  Stream stream_;
+  beast::flat_buffer received_;  // not answered yet
+  std::optional<Parser> parser_;
+  Answer answer_;
+  std::optional<http::response_serializer<Answer::body_type>> serializer_;
+  PageText text_;  // the body of answer_
+  bool keeps_alive_ = false;
+  State state_ = State::asking;
+  TimePoint since_{};
+};
 
 }  // namespace
 
-PageSession::PageSession(boost::asio::io_context& context, const PageLimits& limits, TakePageText take_text)
-    : limits_(limits), take_text_(std::move(take_text)), socket_(context), limit_(context) {}
-
-void PageSession::start(Descriptor connection) {
+std::shared_ptr<PageSession> PageSession::start(boost::asio::io_context& context, Descriptor connection,
+                                                const PageLimits& limits, TakePageText take_text) {
+  Stream::socket_type socket(context.get_executor());
   error_code error;
-  socket_.assign(connection.get(), error);
-  if (error) return;
-  connection.release();
-  enter(State::asking, limits_.head);
-  wait_for(Socket::wait_read, &PageSession::read);
-}
-
-void PageSession::end() {
-  error_code ignored;
-  socket_.close(ignored);
-  limit_.cancel();
-  answer_ = {};
-}
-
-void PageSession::enter(State state, Duration limit) {
-  state_ = state;
-  since_ = monotonic_now();
-  limit_.expires_after(limit);
-  limit_.async_wait([self = shared_from_this()](const error_code& error) {
-    // An expired timer cannot be cancelled: it may already have been set again for another state.
-    if (!error && self->limit_.expiry() <= std::chrono::steady_clock::now()) self->end();
-  });
-}
-
-void PageSession::wait_for(Socket::wait_type what, void (PageSession::*then)()) {
-  socket_.async_wait(what, [self = shared_from_this(), then](const error_code& error) {
-    if (error) return self->end();
-    if (self->is_open()) ((*self).*then)();
-  });
-}
-
-void PageSession::read() {
-  Piece piece;
-  const ssize_t size = receive(socket_.native_handle(), piece);
-  if (size == 0 || (size < 0 && !is_passing(errno))) return end();
-  if (state_ == State::idle) enter(State::asking, limits_.head);
-  if (size > 0) received_.append(piece.data(), static_cast<std::size_t>(size));
-  look_for_request();
-}
-
-void PageSession::look_for_request() {
-  const std::optional<std::size_t> size = head_size(received_);
-  if (size.value_or(received_.size()) > limits_.head_bytes) return send(answer_too_long());
-  if (!size) return wait_for(Socket::wait_read, &PageSession::read);
-  const std::optional<PageRequest> request = parse_request(std::string_view(received_).substr(0, *size));
-  received_.erase(0, *size);
-  send(request ? answer(*request, take_text_) : answer_malformed());
-}
-
-void PageSession::send(PageAnswer answer) {
-  answer_ = std::move(answer);
-  sent_ = 0;
-  enter(State::answering, limits_.answer);
-  send_rest();
-}
-
-void PageSession::send_rest() {
-  const std::string_view body = answer_.body ? std::string_view(*answer_.body) : std::string_view();
-  while (sent_ < answer_.head.size() + body.size()) {
-    const ssize_t size = send_from(socket_.native_handle(), answer_.head, body, sent_);
-    if (size < 0 && is_passing(errno)) return wait_for(Socket::wait_write, &PageSession::send_rest);
-    if (size < 0) return end();
-    sent_ += static_cast<std::size_t>(size);
-  }
-  const bool keep_alive = answer_.keep_alive;
-  answer_ = {};
-  if (keep_alive) {
-    stay();
-  } else {
-    leave();
-  }
-}
-
-void PageSession::stay() {
-  if (received_.empty()) {
-    enter(State::idle, limits_.idle);
-    return wait_for(Socket::wait_read, &PageSession::read);
-  }
-  // Part of the next request came with this one. Other connections get their turn first, since one connection may send
-  // hundreds of requests at once.
-  enter(State::asking, limits_.head);
-  boost::asio::post(socket_.get_executor(), [self = shared_from_this()] {
-    if (self->is_open()) self->look_for_request();
-  });
-}
-
-void PageSession::leave() {
-  ::shutdown(socket_.native_handle(), SHUT_WR);
-  enter(State::leaving, limits_.leaving);
-  wait_for(Socket::wait_read, &PageSession::discard);
-}
-
-void PageSession::discard() {
-  Piece piece;
-  const ssize_t size = receive(socket_.native_handle(), piece);
-  if (size == 0 || (size < 0 && !is_passing(errno))) return end();
-  wait_for(Socket::wait_read, &PageSession::discard);
+  socket.assign(boost::asio::ip::tcp::v4(), connection.get(), error);
+  if (!error) connection.release();
+  auto session = std::make_shared<BeastSession>(std::move(socket), limits, std::move(take_text));
+  if (!error) session->start();
+  return session;
 }
 
 }  // namespace axisgate::server

@@ -1,57 +1,39 @@
 // A connection to the metrics page: reads its requests, sends the answers, and ends when one of its limits passes.
+// Boost.Beast speaks HTTP/1; page_session.cc alone includes it, because it takes long to compile.
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "device/core/time.h"
 #include "device/link/asio.h"
 #include "device/link/descriptor.h"
-#include "server/metrics/page_answer.h"
 #include "server/metrics/page_limits.h"
 
 namespace axisgate::server {
 
+// One text, shared by all readers.
+using PageText = std::shared_ptr<const std::string>;
+using TakePageText = std::function<PageText()>;
+
 // Runs on the context's only thread. Its pending operations keep it alive.
-class PageSession : public std::enable_shared_from_this<PageSession> {
+class PageSession {
  public:
-  // `limits` must outlive this object.
-  PageSession(boost::asio::io_context& context, const PageLimits& limits, TakePageText take_text);
+  virtual ~PageSession() = default;
 
-  // Takes over the non-blocking connection. Call it once.
-  void start(Descriptor connection);
+  // Takes over the connection, and serves it. `limits` must outlive the session. Calls `take_text` only for an answer
+  // that needs the text.
+  static std::shared_ptr<PageSession> start(boost::asio::io_context& context, Descriptor connection,
+                                            const PageLimits& limits, TakePageText take_text);
+
   // Closes the connection and discards unsent bytes.
-  void end();
+  virtual void end() = 0;
 
-  bool is_open() const { return socket_.is_open(); }
+  virtual bool is_open() const = 0;
   // Reports whether the answer to a complete request is being sent.
-  bool is_answering() const { return state_ == State::answering; }
-  TimePoint since() const { return since_; }  // begin of the present state
-
- private:
-  enum class State { asking, answering, idle, leaving };
-  using Socket = boost::asio::posix::stream_descriptor;
-
-  void enter(State state, Duration limit);
-  void wait_for(Socket::wait_type what, void (PageSession::*then)());
-  void read();
-  void look_for_request();
-  void send(PageAnswer answer);
-  void send_rest();
-  void stay();
-  void leave();
-  void discard();
-
-  const PageLimits& limits_;
-  const TakePageText take_text_;
-  Socket socket_;
-  boost::asio::steady_timer limit_;
-  State state_ = State::asking;
-  TimePoint since_{};
-  std::string received_;  // not answered yet
-  PageAnswer answer_;
-  std::size_t sent_ = 0;  // of head and body
+  virtual bool is_answering() const = 0;
+  virtual TimePoint since() const = 0;  // begin of the present state
 };
 
 }  // namespace axisgate::server
