@@ -15,28 +15,10 @@
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/mill/queued_check.h"
 #include "device/rml1/sending/pace_meter.h"
-#include "device/rml1/simulator/control.h"
 #include "device/rml1/simulator/simulator.h"
 
 namespace axisgate::rml1 {
 namespace {
-
-class SimulatedMill final : public Simulation {
- public:
-  SimulatedMill(simulator::MillSetup setup, ByteLink& line) : simulator_(std::move(setup), line) {}
-
-  void link_up(TimePoint now) override { simulator_.link_up(now); }
-  void link_down(TimePoint now, std::string_view why) override { simulator_.link_down(now, why); }
-  void receive(std::string_view bytes, TimePoint now) override { simulator_.receive(bytes, now); }
-  void advance(TimePoint now) override { simulator_.advance(now); }
-  std::optional<TimePoint> next_deadline() const override { return simulator_.next_deadline(); }
-  Result<std::string> operate(std::string_view command, TimePoint now) override {
-    return simulator::control(simulator_, command, now);
-  }
-
- private:
-  simulator::Simulator simulator_;
-};
 
 // Rounds, because a quotient such as 203.2 / 0.025 is not always computed as a whole number.
 std::int64_t whole_steps(const Profile& profile, double mm) {
@@ -127,7 +109,7 @@ std::unique_ptr<Simulation> MillModel::make_simulation(const Words& options, std
                                                        ByteLink& line) const {
   simulator::Options chosen;
   for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
-  return std::make_unique<SimulatedMill>(
+  return std::make_unique<simulator::Simulator>(
       simulator::MillSetup{profile_, std::move(chosen), buffer, simulator::Flow::none, slower_percent}, line);
 }
 

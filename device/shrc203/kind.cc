@@ -10,7 +10,6 @@
 #include "device/shrc203/command/setting_lines.h"
 #include "device/shrc203/controller.h"
 #include "device/shrc203/planning/transaction_lines.h"
-#include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/simulator.h"
 
@@ -32,23 +31,6 @@ bool is(const Words& settings, std::string_view key, std::string_view word) {
 Scope scope(const Words& settings, std::string_view key) {
   return is(settings, key, "axis") ? Scope::axis : Scope::controller;
 }
-
-class SimulatedUnit final : public Simulation {
- public:
-  SimulatedUnit(simulator::Options options, ByteLink& line) : simulator_(std::move(options), line) {}
-
-  void link_up(TimePoint now) override { simulator_.link_up(now); }
-  void link_down(TimePoint now, std::string_view why) override { simulator_.link_down(now, why); }
-  void receive(std::string_view bytes, TimePoint now) override { simulator_.receive(bytes, now); }
-  void advance(TimePoint now) override { simulator_.advance(now); }
-  std::optional<TimePoint> next_deadline() const override { return simulator_.next_deadline(); }
-  Result<std::string> operate(std::string_view command, TimePoint now) override {
-    return simulator::control(simulator_, command, now);
-  }
-
- private:
-  simulator::Simulator simulator_;
-};
 
 class Shrc203 final : public stage::Kind {
  public:
@@ -107,7 +89,7 @@ class Shrc203 final : public stage::Kind {
   std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const override {
     simulator::Options chosen;
     for (const auto& [name, value] : options) (void)chosen.set(name, value);  // check_option() has checked them
-    return std::make_unique<SimulatedUnit>(std::move(chosen), line);
+    return std::make_unique<simulator::Simulator>(std::move(chosen), line);
   }
 };
 

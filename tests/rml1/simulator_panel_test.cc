@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "device/core/control_language.h"
-#include "device/rml1/simulator/control.h"
 #include "tests/rml1/simulator_bench.h"
 
 namespace axisgate::rml1::simulator::panel_test {
@@ -13,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string say(MillBench& bench, std::string_view line) { return control_reply(control(bench.mill, line, bench.now)); }
+std::string say(MillBench& bench, std::string_view line) { return control_reply(bench.mill.operate(line, bench.now)); }
 
 // Lowers the tool, then runs 400 ms of a cut of 15 mm at 15 mm/s, 100 steps below Z0.
 void cut(MillBench& bench) {

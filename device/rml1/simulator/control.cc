@@ -1,5 +1,4 @@
-#include "device/rml1/simulator/control.h"
-
+// Commands of a person at the simulated device, as lines of text: `help` lists them all.
 #include <fmt/format.h>
 
 #include <array>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "device/core/control_language.h"
+#include "device/rml1/simulator/simulator.h"
 
 namespace axisgate::rml1::simulator {
 namespace {
@@ -115,10 +115,10 @@ const ControlLanguage& language() {
 
 }  // namespace
 
-Result<std::string> control(Simulator& mill, std::string_view line, TimePoint now) {
+Result<std::string> Simulator::operate(std::string_view line, TimePoint now) {
   auto call = language().read(line);
   if (!call) return tl::unexpected(std::move(call.error()));
-  return kControlCommands.at(call->command).carry_out({mill, now, std::move(call->arguments)});
+  return kControlCommands.at(call->command).carry_out({*this, now, std::move(call->arguments)});
 }
 
 }  // namespace axisgate::rml1::simulator

@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "device/core/line_machine.h"
+#include "device/core/simulation.h"
 #include "device/rml1/simulator/buffer.h"
 #include "device/rml1/simulator/device_control.h"
 #include "device/rml1/simulator/display.h"
@@ -25,7 +25,7 @@ namespace axisgate::rml1::simulator {
 
 // Time advances only by the given `now`. Everything that became due before `now` happens in order, each at its own
 // time. Not thread safe.
-class Simulator : public LineMachine, private DeviceControlSink, private ReaderListener {
+class Simulator : public Simulation, private DeviceControlSink, private ReaderListener {
  public:
   // The line must outlive the simulator. `record` receives a line of JSON for everything that happens; it may be empty.
   Simulator(MillSetup setup, ByteLink& line, Record::Write record = {});
@@ -38,6 +38,9 @@ class Simulator : public LineMachine, private DeviceControlSink, private ReaderL
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override { return drive_.next(); }
+  // Carries out a line of the control language, without its end, at `now` in the mill's time. Returns the values that
+  // the command reports, often none. A refused command changes nothing. Defined in control.cc.
+  Result<std::string> operate(std::string_view line, TimePoint now) override;
 
   // Reports whether the host must not send: after XOFF, or while CTS is low.
   bool holds_back() const;

@@ -1,5 +1,4 @@
-#include "device/shrc203/simulator/control.h"
-
+// Commands of a person at the simulated device, as lines of text: `help` lists them all.
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "device/core/control_language.h"
 #include "device/shrc203/simulator/axis_set.h"
+#include "device/shrc203/simulator/simulator.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {
@@ -181,10 +181,10 @@ const ControlLanguage& language() {
 
 }  // namespace
 
-Result<std::string> control(Simulator& device, std::string_view line, TimePoint now) {
+Result<std::string> Simulator::operate(std::string_view line, TimePoint now) {
   auto call = language().read(line);
   if (!call) return tl::unexpected(std::move(call.error()));
-  return kControlCommands.at(call->command).carry_out({device, now, std::move(call->arguments)});
+  return kControlCommands.at(call->command).carry_out({*this, now, std::move(call->arguments)});
 }
 
 }  // namespace axisgate::shrc203::simulator

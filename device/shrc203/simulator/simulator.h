@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/core/line_machine.h"
 #include "device/core/problem.h"
+#include "device/core/simulation.h"
 #include "device/shrc203/simulator/boot.h"
 #include "device/shrc203/simulator/faults.h"
 #include "device/shrc203/simulator/options.h"
@@ -20,7 +20,7 @@ namespace axisgate::shrc203::simulator {
 
 // The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time advances only by the given
 // `now`; events due before that happen in order, each at its own time. Not thread safe.
-class Simulator : public LineMachine {
+class Simulator : public Simulation {
  public:
   Simulator(Options options, ByteLink& line);
   ~Simulator() override;
@@ -31,6 +31,9 @@ class Simulator : public LineMachine {
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
+  // Carries out a line of the control language, without its end, at `now` in the device's time. Returns the values that
+  // the command reports, often none. A refused command changes nothing. Defined in control.cc.
+  Result<std::string> operate(std::string_view line, TimePoint now) override;
 
   // Actions and observations of a person at the device.
   std::int64_t position(int axis) const;       // pulses, at the time of the last call

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "device/core/control_language.h"
-#include "device/shrc203/simulator/control.h"
 #include "tests/paths/paths.h"
 #include "tests/unit/simulator/simulator_bench.h"
 
@@ -21,7 +20,7 @@ using testing::StartsWith;
 
 class SimulatorControl : public testing::Test {
  protected:
-  std::string say(std::string_view line) { return control_reply(control(bench.device, line, bench.now())); }
+  std::string say(std::string_view line) { return control_reply(bench.device.operate(line, bench.now())); }
 
   // Returns the status of axis 1 in hexadecimal (manual 7) SRQ:S), and R or B for READY or BUSY.
   std::string status() { return bench.ask("SRQ:1S"); }
@@ -321,18 +320,18 @@ TEST_F(SimulatorControl, DelayAndStuck) {
 TEST_F(SimulatorControl, LooksAtTheTimeGiven) {
   EXPECT_EQ(bench.send("M:1+P50000\r\nG:1\r\n"), "OK OK");
   const TimePoint later = bench.now() + seconds(10);
-  EXPECT_EQ(control(bench.device, "position 1", later).value(), "50000");
-  EXPECT_EQ(control(bench.device, "busy 1", later).value(), "no");
+  EXPECT_EQ(bench.device.operate("position 1", later).value(), "50000");
+  EXPECT_EQ(bench.device.operate("busy 1", later).value(), "no");
 }
 
 // Reasons are for callers that offer the same actions by other means than text.
 TEST_F(SimulatorControl, RefusalsHaveReasons) {
-  const auto refused = control(bench.device, "limit 9 cw on", bench.now());
+  const auto refused = bench.device.operate("limit 9 cw on", bench.now());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, Reason::invalid_request);
   EXPECT_EQ(bench.send("M:1+P500\r\nG:1\r\n"), "OK OK");
-  EXPECT_EQ(control(bench.device, "sleep on", bench.now()).error().reason, Reason::axis_busy);
-  EXPECT_EQ(control(bench.device, "emergency", bench.now()).value(), "");
+  EXPECT_EQ(bench.device.operate("sleep on", bench.now()).error().reason, Reason::axis_busy);
+  EXPECT_EQ(bench.device.operate("emergency", bench.now()).value(), "");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The program rml1-sim: a simulated mill on a pseudo-terminal or a TCP port, which a sender of jobs can open.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -10,17 +9,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "device/core/control_language.h"
-#include "device/core/paced_line.h"
-#include "device/link/control_server.h"
-#include "device/link/socket_file.h"
+#include "device/link/simulator_program.h"
 #include "device/rml1/machine/profile.h"
 #include "device/rml1/machine/profile_files.h"
-#include "device/rml1/simulator/control.h"
 #include "device/rml1/simulator/options.h"
 #include "device/rml1/simulator/program/host_end.h"
 #include "device/rml1/simulator/program/mill_line.h"
@@ -29,8 +25,7 @@
 namespace axisgate::rml1::simulator {
 namespace {
 
-constexpr int kExitFailed = 1;
-constexpr int kExitUsage = 2;
+constexpr std::string_view kProgram = "rml1-sim";
 
 struct Arguments {
   std::string pty;
@@ -51,17 +46,6 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using RecordFile = std::unique_ptr<std::FILE, CloseFile>;
-
-int complain(int exit_code, const Problem& problem) {
-  const char* const end = problem.message.ends_with('.') ? "" : ".";
-  fmt::print(stderr, "rml1-sim: {}{}{}{}\n", problem.message, end, problem.hint.empty() ? "" : " ", problem.hint);
-  return exit_code;
-}
-
-int complain_of_usage(std::string message, std::string hint = "See --help.") {
-  return complain(kExitUsage,
-                  {.reason = Reason::invalid_request, .message = std::move(message), .hint = std::move(hint)});
-}
 
 void describe_line(CLI::App& program, Arguments& arguments) {
   auto* pty = program.add_option("--pty", arguments.pty, "Symbolic link to make to the mill's terminal");
@@ -97,22 +81,10 @@ void describe(CLI::App& program, Arguments& arguments) {
   program.add_flag("--list-options", arguments.list_options, "Print every option and its values, and end");
 }
 
-void list_options() {
-  fmt::print("Each option's first value is its default.\n");
-  for (const OptionName& option : option_names()) fmt::print("{}={}\n", option.name, fmt::join(option.values, "|"));
-}
-
 Result<Options> choose_options(const Arguments& arguments) {
   Options options;
-  for (const std::string& setting : arguments.options) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos) {
-      return fail(Reason::invalid_request, fmt::format("--option {}: expected NAME=VALUE", setting),
-                  "--list-options prints them.");
-    }
-    const auto set = options.set(setting.substr(0, equals), setting.substr(equals + 1));
-    if (!set) return tl::unexpected(set.error());
-  }
+  const auto set = set_options(arguments.options, [&](auto name, auto value) { return options.set(name, value); });
+  if (!set) return tl::unexpected(set.error());
   return options;
 }
 
@@ -153,60 +125,13 @@ Result<std::unique_ptr<HostEnd>> open_end(const Strand& strand, const Arguments&
   return arguments.tcp ? open_tcp_end(strand, *arguments.tcp) : open_pty_end(strand, arguments.pty);
 }
 
-Result<std::optional<SocketFile>> open_control(const std::string& path) {
-  if (path.empty()) return std::nullopt;
-  return SocketFile::open(path);
+Record::Write writer(std::FILE* record) {
+  if (record == nullptr) return {};
+  return [record](std::string_view line) {
+    fmt::print(record, "{}\n", line);
+    std::fflush(record);
+  };
 }
-
-// A simulated mill with its line and its control socket.
-class Mill {
- public:
-  Mill(const MillSetup& setup, double speed, std::shared_ptr<MillLine> line, std::FILE* record)
-      : line_(std::move(line)), paced_({.speed = speed}, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
-          auto made = std::make_unique<Simulator>(setup, inside, writer(record));
-          simulator_ = made.get();
-          return made;
-        }) {
-    line_->attach(paced_);
-    // A pseudo-terminal has no CTS, so with rts reading stops instead.
-    line_->start([this, obeys = setup.flow == Flow::rts] {
-      return simulator_->holds_back() && (obeys || line_->end().stops_at_xoff());
-    });
-  }
-
-  void take_commands(Descriptor listener) {
-    server_ = std::make_shared<ControlServer>(
-        line_->strand(), std::move(listener), [this](const std::string& command, ControlServer::Reply reply) {
-          line_->post([this, command, reply = std::move(reply)](TimePoint now) { reply(carry_out(command, now)); });
-        });
-    server_->start();
-  }
-
-  void shutdown() {
-    if (server_) server_->shutdown();
-    line_->shutdown();
-  }
-
- private:
-  static Record::Write writer(std::FILE* record) {
-    if (record == nullptr) return {};
-    return [record](std::string_view line) {
-      fmt::print(record, "{}\n", line);
-      std::fflush(record);
-    };
-  }
-
-  std::string carry_out(const std::string& command, TimePoint now) {
-    std::string reply;
-    paced_.touch(now, [&](TimePoint mill_now) { reply = control_reply(control(*simulator_, command, mill_now)); });
-    return reply;
-  }
-
-  std::shared_ptr<MillLine> line_;
-  Simulator* simulator_ = nullptr;  // machine of paced_
-  PacedLine paced_;
-  std::shared_ptr<ControlServer> server_;
-};
 
 Duration byte_time(int baud, double speed) {
   if (baud == 0) return Duration::zero();
@@ -218,19 +143,28 @@ int run(const Arguments& arguments, const MillSetup& setup) {
   // Catches signals before the link exists, so that anybody who sees the link can end this program cleanly.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
   const auto record = open_record(arguments.record);
-  if (!record) return complain(kExitFailed, record.error());
+  if (!record) return complain(kProgram, kSimulatorFailed, record.error());
   // Opens the socket before the link is made: the link may belong to a program that still runs.
   auto control = open_control(arguments.control);
-  if (!control) return complain(kExitFailed, control.error());
+  if (!control) return complain(kProgram, kSimulatorFailed, control.error());
   const Strand strand = boost::asio::make_strand(context);
   auto end = open_end(strand, arguments);
-  if (!end) return complain(kExitFailed, end.error());
+  if (!end) return complain(kProgram, kSimulatorFailed, end.error());
 
   const int baud = arguments.baud.value_or(setup.profile.baud.value_or(0));
   // The handshake keeps a quarter of the buffer free for bytes that come after the host was stopped.
   const std::size_t at_once = setup.flow == Flow::none ? MillLine::kBytesMax : setup.buffer_bytes / 4;
   const auto line = std::make_shared<MillLine>(strand, std::move(*end), byte_time(baud, arguments.speed), at_once);
-  Mill mill(setup, arguments.speed, line, record->get());
+  const Simulator* simulator = nullptr;  // owned by `mill`
+  SimulatedDevice<MillLine> mill({.speed = arguments.speed}, line, [&](ByteLink& inside) {
+    auto made = std::make_unique<Simulator>(setup, inside, writer(record->get()));
+    simulator = made.get();
+    return made;
+  });
+  // A pseudo-terminal has no CTS, so with rts reading stops instead.
+  line->start([&, obeys = setup.flow == Flow::rts] {
+    return simulator->holds_back() && (obeys || line->end().stops_at_xoff());
+  });
   if (*control) mill.take_commands((*control)->take_socket());
   signals.async_wait([&](const boost::system::error_code&, int) { mill.shutdown(); });
 
@@ -251,15 +185,16 @@ int main_program(int count, char** words) {
     program.parse(count, words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);
-    return complain_of_usage(error.what());
+    return complain_of_usage(kProgram, error.what());
   }
   if (arguments.list_options) {
-    list_options();
+    print_options(option_names());
     return 0;
   }
-  if (arguments.pty.empty() && !arguments.tcp) return complain_of_usage("--pty LINK or --tcp PORT is required");
+  if (arguments.pty.empty() && !arguments.tcp)
+    return complain_of_usage(kProgram, "--pty LINK or --tcp PORT is required");
   const auto setup = choose_setup(arguments);
-  if (!setup) return complain(kExitUsage, setup.error());
+  if (!setup) return complain(kProgram, kSimulatorUsage, setup.error());
   return run(arguments, *setup);
 }
 

@@ -6,17 +6,13 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "device/core/control_language.h"
-#include "device/core/paced_line.h"
-#include "device/link/control_server.h"
 #include "device/link/pty_line.h"
-#include "device/link/socket_file.h"
-#include "device/shrc203/simulator/control.h"
+#include "device/link/simulator_program.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/simulator.h"
 
@@ -25,8 +21,7 @@ namespace {
 
 namespace simulator = shrc203::simulator;
 
-constexpr int kExitFailed = 1;
-constexpr int kExitUsage = 2;
+constexpr std::string_view kProgram = "shrc203-sim";
 
 struct Arguments {
   std::string pty;
@@ -38,12 +33,6 @@ struct Arguments {
   std::vector<std::string> options;
   bool list_options = false;
 };
-
-int complain(int exit_code, const Problem& problem) {
-  const char* const end = problem.message.ends_with('.') ? "" : ".";
-  fmt::print(stderr, "shrc203-sim: {}{}{}{}\n", problem.message, end, problem.hint.empty() ? "" : " ", problem.hint);
-  return exit_code;
-}
 
 void describe(CLI::App& program, Arguments& arguments) {
   auto* pty = program.add_option("--pty", arguments.pty, "Symbolic link to make to the simulator's terminal");
@@ -66,25 +55,11 @@ void describe(CLI::App& program, Arguments& arguments) {
       ->excludes(pty);
 }
 
-void list_options() {
-  fmt::print("Each option's first value is its default.\n");
-  for (const OptionName& option : simulator::option_names()) {
-    fmt::print("{}={}\n", option.name, fmt::join(option.values, "|"));
-  }
-}
-
 Result<simulator::Options> choose_options(const Arguments& arguments) {
   simulator::Options options;
   options.serial_number = arguments.serial_number;
-  for (const std::string& setting : arguments.options) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos) {
-      return fail(Reason::invalid_request, fmt::format("--option {}: expected NAME=VALUE", setting),
-                  "--list-options prints them.");
-    }
-    const auto set = options.set(setting.substr(0, equals), setting.substr(equals + 1));
-    if (!set) return tl::unexpected(set.error());
-  }
+  const auto set = set_options(arguments.options, [&](auto name, auto value) { return options.set(name, value); });
+  if (!set) return tl::unexpected(set.error());
   return options;
 }
 
@@ -96,65 +71,21 @@ Result<std::shared_ptr<PtyLine>> open_line(const Strand& strand, const std::stri
   return std::make_shared<PtyLine>(strand, std::move(*pty), std::move(*watch));
 }
 
-Result<std::optional<SocketFile>> open_control(const std::string& path) {
-  if (path.empty()) return std::nullopt;
-  return SocketFile::open(path);
-}
-
-// The simulated device with its line and its control socket.
-class Device {
- public:
-  Device(const Pacing& pacing, const simulator::Options& options, std::shared_ptr<PtyLine> line)
-      : line_(std::move(line)), paced_(pacing, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
-          auto made = std::make_unique<simulator::Simulator>(options, inside);
-          simulator_ = made.get();
-          return made;
-        }) {
-    line_->attach(paced_);
-    line_->start();
-  }
-
-  void take_commands(Descriptor listener) {
-    server_ = std::make_shared<ControlServer>(
-        line_->strand(), std::move(listener), [this](const std::string& command, ControlServer::Reply reply) {
-          line_->post([this, command, reply = std::move(reply)](TimePoint now) { reply(carry_out(command, now)); });
-        });
-    server_->start();
-  }
-
-  void shutdown() {
-    if (server_) server_->shutdown();
-    line_->shutdown();
-  }
-
- private:
-  std::string carry_out(const std::string& command, TimePoint now) {
-    std::string reply;
-    paced_.touch(now, [&](TimePoint device_now) {
-      reply = control_reply(simulator::control(*simulator_, command, device_now));
-    });
-    return reply;
-  }
-
-  std::shared_ptr<PtyLine> line_;
-  simulator::Simulator* simulator_ = nullptr;  // owned by paced_
-  PacedLine paced_;
-  std::shared_ptr<ControlServer> server_;
-};
-
 int run(const Arguments& arguments, const simulator::Options& options) {
   boost::asio::io_context context(1);
   // Before the link exists, so that a program that sees the link can already end this one cleanly.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
   // Before the link is created, which may replace the link of a program that still runs.
   auto control = open_control(arguments.control);
-  if (!control) return complain(kExitFailed, control.error());
+  if (!control) return complain(kProgram, kSimulatorFailed, control.error());
   auto opened = open_line(boost::asio::make_strand(context), arguments.pty);
-  if (!opened) return complain(kExitFailed, opened.error());
+  if (!opened) return complain(kProgram, kSimulatorFailed, opened.error());
   const PtyLine& line = **opened;
 
   const Pacing pacing{arguments.baud, std::chrono::milliseconds(arguments.reply_delay_ms), arguments.speed};
-  Device device(pacing, options, *opened);
+  SimulatedDevice<PtyLine> device(
+      pacing, *opened, [&](ByteLink& inside) { return std::make_unique<simulator::Simulator>(options, inside); });
+  (*opened)->start();
   if (*control) device.take_commands((*control)->take_socket());
   signals.async_wait([&](const boost::system::error_code&, int) { device.shutdown(); });
 
@@ -175,18 +106,17 @@ int main_program(int count, char** words) {
     program.parse(count, words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);
-    return complain(kExitUsage, {.reason = Reason::invalid_request, .message = error.what(), .hint = "See --help."});
+    return complain_of_usage(kProgram, error.what());
   }
   if (arguments.list_options) {
-    list_options();
+    print_options(simulator::option_names());
     return 0;
   }
   if (arguments.pty.empty()) {
-    return complain(kExitUsage,
-                    {.reason = Reason::invalid_request, .message = "--pty LINK is required", .hint = "See --help."});
+    return complain_of_usage(kProgram, "--pty LINK is required");
   }
   const auto options = choose_options(arguments);
-  if (!options) return complain(kExitUsage, options.error());
+  if (!options) return complain(kProgram, kSimulatorUsage, options.error());
   return run(arguments, *options);
 }
 
