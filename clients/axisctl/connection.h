@@ -20,7 +20,7 @@
 #include "axisgate/v1/settings.grpc.pb.h"
 #include "axisgate/v1/simulator.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
-#include "clients/axisctl/options.h"
+#include "clients/axisctl/arguments/options.h"
 #include "clients/axisctl/upload_steps.h"
 
 namespace axisgate::axisctl {

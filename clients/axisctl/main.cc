@@ -1,6 +1,6 @@
 // axisctl: the command-line program for axisgated.
+#include "clients/axisctl/arguments/options.h"
 #include "clients/axisctl/failure.h"
-#include "clients/axisctl/options.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "axisgate/v1/device.pb.h"
+#include "clients/axisctl/arguments/options.h"
 #include "clients/axisctl/connection.h"
-#include "clients/axisctl/options.h"
 
 namespace axisgate::axisctl {
 

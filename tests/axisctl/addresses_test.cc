@@ -1,5 +1,5 @@
 // Tests of the conversion of --target to gRPC addresses.
-#include "clients/axisctl/addresses.h"
+#include "clients/axisctl/arguments/addresses.h"
 
 #include <gtest/gtest.h>
 

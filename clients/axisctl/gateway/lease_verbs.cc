@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/gateway/child.h"
 #include "clients/axisctl/gateway/lease_board.h"
 #include "clients/axisctl/held_lease.h"
 #include "clients/axisctl/print.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

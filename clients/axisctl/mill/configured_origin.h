@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "clients/axisctl/options.h"
+#include "clients/axisctl/arguments/options.h"
 #include "device/rml1/machine/machine.h"
 
 namespace axisgate::axisctl {

@@ -1,7 +1,7 @@
 // Argument JOB of the verbs of `axisctl mill`.
 #pragma once
 
-#include "clients/axisctl/options.h"
+#include "clients/axisctl/arguments/options.h"
 
 namespace CLI {
 class App;

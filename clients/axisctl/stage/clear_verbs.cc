@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

@@ -1,9 +1,9 @@
 // zero, unzero and preset: set the coordinates of an axis's present position.
 #include <CLI/CLI.hpp>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/stage/setting_calls.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

@@ -3,9 +3,9 @@
 #include <functional>
 #include <optional>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/parse.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

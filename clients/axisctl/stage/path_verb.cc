@@ -7,11 +7,11 @@
 #include <fstream>
 #include <iostream>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/stage/path_grammar.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

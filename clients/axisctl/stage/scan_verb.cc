@@ -1,9 +1,9 @@
 // scan: requests a scan, then waits for its outcome.
 #include <CLI/CLI.hpp>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/parse.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

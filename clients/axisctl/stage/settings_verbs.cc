@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/stage/setting_calls.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 #include "device/core/quantity.h"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
-#include "clients/axisctl/verb_options.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {

@@ -1,7 +1,7 @@
 // Options that several verbs have.
 #pragma once
 
-#include "clients/axisctl/options.h"
+#include "clients/axisctl/arguments/options.h"
 
 namespace CLI {
 class App;

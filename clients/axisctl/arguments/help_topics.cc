@@ -1,4 +1,4 @@
-#include "clients/axisctl/help_topics.h"
+#include "clients/axisctl/arguments/help_topics.h"
 
 #include <fmt/format.h>
 

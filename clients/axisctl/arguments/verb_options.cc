@@ -1,4 +1,4 @@
-#include "clients/axisctl/verb_options.h"
+#include "clients/axisctl/arguments/verb_options.h"
 
 #include <CLI/CLI.hpp>
 

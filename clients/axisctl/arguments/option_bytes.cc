@@ -1,4 +1,4 @@
-#include "clients/axisctl/option_bytes.h"
+#include "clients/axisctl/arguments/option_bytes.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

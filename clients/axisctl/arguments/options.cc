@@ -1,17 +1,17 @@
 // Parsing of the command line with CLI11: the options of axisctl, its verbs, and its help. The options of a verb are
 // beside its function.
-#include "clients/axisctl/options.h"
+#include "clients/axisctl/arguments/options.h"
 
 #include <CLI/CLI.hpp>
 #include <string_view>
 
-#include "clients/axisctl/addresses.h"
+#include "clients/axisctl/arguments/addresses.h"
+#include "clients/axisctl/arguments/help_topics.h"
+#include "clients/axisctl/arguments/option_bytes.h"
+#include "clients/axisctl/arguments/verb_options.h"
 #include "clients/axisctl/failure.h"
-#include "clients/axisctl/help_topics.h"
-#include "clients/axisctl/option_bytes.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verb.h"
-#include "clients/axisctl/verb_options.h"
 
 namespace axisgate::axisctl {
 namespace {

@@ -1,4 +1,4 @@
-#include "clients/axisctl/addresses.h"
+#include "clients/axisctl/arguments/addresses.h"
 
 #include <fmt/format.h>
 
