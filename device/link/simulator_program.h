@@ -37,8 +37,8 @@ Result<void> set_options(const std::vector<std::string>& settings,
 // Opens the control socket; nullopt without a path.
 Result<std::optional<SocketFile>> open_control(const std::string& path);
 
-// A simulated device with its line and its control socket. `Line`: PtyLine, or another one with the same members. Not
-// thread safe, except on the line's strand.
+// A simulated device with its line and its control socket. `Line` has attach(), post(), strand()
+// and shutdown(), as PtyLine. Not thread safe.
 template <class Line>
 class SimulatedDevice {
  public:

@@ -12,8 +12,7 @@ struct PageLimits {
   // Far more than a few Prometheus servers and people need. Each takes one of the descriptors that
   // connections/descriptor_limit.cc sets aside.
   std::size_t connections = 128;
-  // Prometheus sends a few hundred bytes; 8 KiB is the limit of most servers. The request line is not
-  // counted.
+  // Prometheus sends a few hundred bytes; 8 KiB is the limit of most servers. The request line may be counted apart.
   std::size_t head_bytes = 8192;
   // Time for a whole head. On loopback, only a busy machine needs more than a moment.
   Duration head = std::chrono::seconds(5);
@@ -24,6 +23,8 @@ struct PageLimits {
   // Time for the reader to close after the last answer: closing first would discard the answer of a reader that still
   // sends.
   Duration leaving = std::chrono::seconds(1);
+  // Bytes that are read meanwhile. A reader that sends without an end is never waited for, so no time ends it.
+  std::size_t leaving_bytes = 1 << 20;
   // Maximum age of a text that is sent again: any number of readers costs at most ten texts a second.
   Duration text_age = std::chrono::milliseconds(100);
   // Delay before the next attempt when no descriptor was free to accept a connection.

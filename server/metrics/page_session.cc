@@ -2,6 +2,8 @@
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -23,7 +25,7 @@ using Answer = http::response<http::span_body<const char>>;
 constexpr std::string_view kPageType = "text/plain; version=0.0.4; charset=utf-8";
 constexpr std::string_view kSentenceType = "text/plain; charset=utf-8";
 
-// Bytes that are read of the requests after the first one.
+// Bytes that one read takes of an idle or leaving connection.
 constexpr std::size_t kReadAhead = 4096;
 
 beast::string_view to_beast(std::string_view text) { return {text.data(), text.size()}; }
@@ -67,10 +69,11 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
     stream_.expires_after(limit);
   }
 
-  // Waits for the head of a request. Its own time begins with its first byte.
+  // Reads the head of a request.
   void ask() {
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(limits_.head_bytes));
+    parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // no body is read
     enter(State::asking, limits_.head);
     read_head();
   }
@@ -81,8 +84,9 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
         [self = shared_from_this()](const error_code& error, std::size_t) { self->take_head(error); });
   }
 
+  // A time limit that has passed closes the stream.
   void take_head(const error_code& error) {
-    if (!is_open()) return;
+    if (!is_open()) return end();
     if (is_too_long(error)) {
       return refuse(http::status::request_header_fields_too_large, "The head of the request is too long.\n");
     }
@@ -91,7 +95,8 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
     }
     if (error) return end();
     // A body is not read, and would look like the next request.
-    const bool has_body = parser_->chunked() || parser_->content_length().value_or(0) > 0;
+    const bool has_body =
+        parser_->get().count(http::field::transfer_encoding) > 0 || parser_->content_length().value_or(0) > 0;
     keeps_alive_ = parser_->get().keep_alive() && !has_body;
     answer();
   }
@@ -138,7 +143,7 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
   }
 
   void sent(const error_code& error) {
-    if (!is_open()) return;
+    if (!is_open()) return end();
     text_ = nullptr;
     serializer_.reset();
     answer_ = {};
@@ -148,8 +153,7 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
     enter(State::idle, limits_.idle);
     stream_.async_read_some(received_.prepare(kReadAhead),
                             [self = shared_from_this()](const error_code& failed, std::size_t size) {
-                              if (!self->is_open()) return;
-                              if (failed) return self->end();
+                              if (failed || !self->is_open()) return self->end();
                               self->received_.commit(size);
                               self->ask();
                             });
@@ -166,9 +170,10 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
   void discard() {
     received_.clear();
     stream_.async_read_some(received_.prepare(kReadAhead),
-                            [self = shared_from_this()](const error_code& error, std::size_t) {
-                              if (!self->is_open()) return;
-                              error ? self->end() : self->discard();
+                            [self = shared_from_this()](const error_code& error, std::size_t size) {
+                              self->discarded_ += size;
+                              const bool enough = self->discarded_ > self->limits_.leaving_bytes;
+                              error || enough || !self->is_open() ? self->end() : self->discard();
                             });
   }
 
@@ -181,6 +186,7 @@ class BeastSession final : public PageSession, public std::enable_shared_from_th
   std::optional<http::response_serializer<Answer::body_type>> serializer_;
   PageText text_;  // the body of answer_
   bool keeps_alive_ = false;
+  std::size_t discarded_ = 0;
   State state_ = State::asking;
   TimePoint since_{};
 };

@@ -31,7 +31,7 @@ class PageSession {
   virtual void end() = 0;
 
   virtual bool is_open() const = 0;
-  // Reports whether the answer to a complete request is being sent.
+  // Reports whether an answer is being sent.
   virtual bool is_answering() const = 0;
   virtual TimePoint since() const = 0;  // begin of the present state
 };

@@ -24,7 +24,7 @@ Result<void> HandWork::check_taken() const {
 }
 
 // A mill executes all bytes in order, so a job could be sent at once. But the pace of a job is computed for a mill that
-// executes nothing else when the job starts.
+// executes nothing else when the job starts. A job right after an abort is paced as if the tool were up already.
 Result<void> HandWork::check_still(TimePoint now) const {
   const TimePoint done = done_by();
   if (done <= now) return {};

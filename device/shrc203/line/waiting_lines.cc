@@ -40,8 +40,9 @@ bool WaitingLines::add(ExchangeRequest request, OneShot<ExchangeResult> answer, 
   return refuse(std::move(full));
 }
 
-// Returns a waiting line that asks the same in the same lane; null if there is none. A question that needs a right is
-// shared only within its motion: the right of one caller may be lost while that of the other lasts.
+// Returns a waiting line that asks the same in the same lane; null if there is none. A question of a motion is
+// shared only within the motion, and one that needs a right of its own is never shared: one caller may lose the right
+// while the other keeps it.
 WaitingPtr WaitingLines::same_question(const ExchangeRequest& request) const {
   WaitingPtr same;
   if (request.command.row->effect != Effect::question) return same;

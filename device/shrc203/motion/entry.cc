@@ -47,8 +47,9 @@ Task<Result<void>> Entry::prepare(LiveMotionPtr live, Register reg) {
 
 namespace {
 
-// Returns why a motion of `axes` must not start yet. `busy`: axis that moves; 0 if only a completion is outstanding.
-Problem late(int busy, AxisSet axes) {
+// Returns why a motion must not start yet. `busy`: axis that moves; 0 if only the completions of `outstanding` are
+// missing.
+Problem late(int busy, AxisSet outstanding) {
   if (busy != 0) {
     return {.reason = Reason::axis_busy,
             .message = fmt::format("axis {} did not stop in the time allowed", busy),
@@ -57,8 +58,8 @@ Problem late(int busy, AxisSet axes) {
   }
   return {.reason = Reason::completion_outstanding,
           .message = "the completion of an earlier motion may still come, and would be taken for this one's",
-          .hint = "try again, and allow a second",
-          .axis = axes.list().front()};
+          .hint = "try again, and allow at least one second more",
+          .axis = outstanding.list().front()};
 }
 
 }  // namespace
@@ -66,9 +67,8 @@ Problem late(int busy, AxisSet axes) {
 // Waits until the axes are stationary and no late completion is possible.
 Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
   const AxisSet axes = live->motion.axes;
-  const auto late_numbers = [&] {
-    return guarded(Guard::late_numbers_wait) && !(line_.completions().outstanding() & axes).empty();
-  };
+  const auto outstanding = [&] { return line_.completions().outstanding() & axes; };
+  const auto late_numbers = [&] { return guarded(Guard::late_numbers_wait) && !outstanding().empty(); };
   while (!store_.settled() || late_numbers()) {
     const auto read = co_await reader_.read_positions(Lane::motion, live->context.who);
     if (!read) co_return read;
@@ -77,7 +77,7 @@ Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
       if (busy == 0 && store_.state().axis(axis).busy.value_or(true)) busy = axis;
     }
     if ((busy == 0 || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
-    if (tasks_.now() >= live->context.not_after) co_return tl::unexpected(late(busy, axes));
+    if (tasks_.now() >= live->context.not_after) co_return tl::unexpected(late(busy, outstanding()));
     auto pause = tasks_.pause(kReadyPoll);
     co_await pause;
     const bool stopped = live->life.stop_asked() && guarded(Guard::stop_before_preparing);

@@ -1,5 +1,5 @@
-// All kinds of requests and their rules, in one table for the doors, admission, pipeline, streams and audit. README.md
-// explains the columns.
+// All kinds of requests and their rules, in one table for the doors, admission, pipeline, streams and audit. The README
+// of server/api explains the columns.
 #pragma once
 
 #include <array>

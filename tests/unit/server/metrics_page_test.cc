@@ -224,6 +224,26 @@ TEST_F(MetricsPageTest, AReaderThatDoesNotCloseIsLeftAfterAWhile) {
   EXPECT_FALSE(reader.send("x"));
 }
 
+TEST_F(MetricsPageTest, OneThatSendsWithoutAnEndIsLeftAfterAMebibyte) {
+  open({.leaving = seconds(60)});
+  PageReader reader(port());
+  ASSERT_TRUE(reader.send("POST /metrics HTTP/1.0\r\nContent-Length: 9999999999\r\n\r\n"));
+  const std::string piece(64 * 1024, 'x');
+  const TimePoint end = monotonic_now() + seconds(10);
+  while (reader.send(piece) && monotonic_now() < end) {
+  }
+  EXPECT_FALSE(reader.send(piece));
+}
+
+TEST_F(MetricsPageTest, ABodyIsNeverReadAsARequest) {
+  open();
+  for (const char* body : {"Content-Length: 9999999999", "Transfer-Encoding: gzip", "Transfer-Encoding: chunked"}) {
+    const std::string answer = ask(std::string("GET /metrics HTTP/1.1\r\n") + body + "\r\n\r\n" + kGet);
+    EXPECT_THAT(answer, AllOf(StartsWith("HTTP/1.1 200 "), HasSubstr("Connection: close\r\n"), EndsWith(text_)))
+        << body;
+  }
+}
+
 TEST_F(MetricsPageTest, ATextServesAllWhoAskSoonAfterwards) {
   open({.text_age = seconds(3600)});
   for (int i = 0; i < 20; ++i) EXPECT_THAT(metrics_page(port()), EndsWith(text_));
