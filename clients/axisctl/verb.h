@@ -16,7 +16,7 @@ struct Session;
 // Headings of `axisctl help`.
 enum class Heading { looking, moving, stopping, raw, settings, mills, help };
 
-// A row of its file. Verbs below another one, such as `token create`, follow that one.
+// Each file of verbs has a table of these. A verb below another one, such as `token create`, comes after it.
 struct Verb {
   std::string_view words = "";         // "move"; "token create": the verb `create` below `token`
   Heading heading = Heading::looking;  // unused for a verb below another one

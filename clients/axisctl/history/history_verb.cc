@@ -54,7 +54,7 @@ v1::ListHistoryRequest request_of(const Session& session) {
 }
 
 // Prints the summary of one motion from its entries, oldest first, and the command for its recording if the daemon
-// still has it.
+// still keeps it.
 void print_life(const Session& session, const std::vector<v1::HistoryEntry>& entries) {
   print_line(life_text(*session.options.motion, entries));
   if (entries.empty()) return;

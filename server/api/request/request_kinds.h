@@ -107,7 +107,7 @@ enum class Use {
 struct Rule {
   RequestKind kind;
   std::string_view method;  // "StageService/Move", in the package axisgate.v1; empty: not of this API
-  std::string_view name;    // "change settings", for people; never changed, because the journal has it
+  std::string_view name;    // "change settings", for people; the journal stores it, so it never changes
   server::Role least_role;
   server::AdminKey admin_key;  // key in `admin_commands` of the configuration that restricts the request to
                                // administrators
