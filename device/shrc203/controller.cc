@@ -255,15 +255,15 @@ Result<void> Controller::check_use(const RequestContext& context, AxisSet axes) 
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    rooms_->motions.stop_requested(context, axes.empty() ? AxisSet::all() : axes);
+    rooms_->motions.stop_requested(context, axes.empty() ? kAllAxes : axes);
     rooms_->stops.stop(axes, StopKind::stop, context, std::move(done));
   });
 }
 
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    rooms_->motions.stop_requested(context, AxisSet::all());
-    rooms_->stops.stop(AxisSet::all(), StopKind::emergency, context, std::move(done));
+    rooms_->motions.stop_requested(context, kAllAxes);
+    rooms_->stops.stop(kAllAxes, StopKind::emergency, context, std::move(done));
   });
 }
 

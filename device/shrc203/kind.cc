@@ -35,6 +35,7 @@ Scope scope(const Words& settings, std::string_view key) {
 class Shrc203 final : public stage::Kind {
  public:
   std::string_view name() const override { return "shrc203"; }
+  int axis_count() const override { return kAxisCount; }
   std::span<const stage::KindSetting> settings() const override { return kSettings; }
 
   std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const Words& settings, ByteLink& link,

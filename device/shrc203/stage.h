@@ -14,6 +14,9 @@
 namespace axisgate::shrc203 {
 
 using namespace stage;  // NOLINT(google-build-using-namespace)
+
+inline constexpr int kAxisCount = 3;
+inline constexpr AxisSet kAllAxes = AxisSet::first(kAxisCount);
 using use::EndedLease;
 using use::everybody_may;
 using use::Occupation;

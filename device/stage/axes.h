@@ -1,6 +1,7 @@
 // The axes of a stage, and sets of them.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,22 +10,23 @@
 
 namespace axisgate::stage {
 
-// Number of axes of the largest supported controller. With fewer axes, the others are not controllable.
-inline constexpr int kAxisCount = 3;
+// Highest number of axes of a stage. Kind::axis_count() is the number of one kind; the other axes of a State or Profile
+// are not controllable.
+inline constexpr int kAxesMax = 8;
 
-// A set of axes 1..3.
+// A set of axes, numbered from 1 to kAxesMax.
 class AxisSet {
  public:
   constexpr AxisSet() = default;
   static constexpr AxisSet of(int axis) { return AxisSet(static_cast<std::uint8_t>(1u << (axis - 1))); }
-  static constexpr AxisSet all() { return AxisSet(7); }
+  static constexpr AxisSet first(int count) { return AxisSet((1u << count) - 1); }  // axes 1 to `count`
   // Returns the axes of a scope of this stage.
   static constexpr AxisSet in(use::Scope scope) { return AxisSet(scope.axes()); }
 
   constexpr bool has(int axis) const { return (bits_ >> (axis - 1)) & 1u; }
   constexpr bool empty() const { return bits_ == 0; }
-  constexpr int count() const { return (bits_ & 1) + ((bits_ >> 1) & 1) + ((bits_ >> 2) & 1); }
-  constexpr int lowest() const { return has(1) ? 1 : has(2) ? 2 : has(3) ? 3 : 0; }
+  constexpr int count() const { return std::popcount(bits_); }
+  constexpr int lowest() const { return empty() ? 0 : std::countr_zero(bits_) + 1; }
   constexpr bool contains(AxisSet other) const { return (other.bits_ & ~bits_) == 0; }
   constexpr bool touches(AxisSet other) const { return (other.bits_ & bits_) != 0; }
   std::vector<int> list() const { return use::Scope(*this).list(); }  // ascending

@@ -26,8 +26,8 @@ Envelope::Envelope(const Profile& profile, const State& state, std::string_view 
     : profile_(profile), state_(state), who_(who), role_(role) {}
 
 Result<void> Envelope::check_axis(int axis) const {
-  if (axis < 1 || axis > kAxisCount) {
-    return fail(Reason::unknown_axis, fmt::format("there is no axis {}: the axes are 1 to {}", axis, kAxisCount));
+  if (axis < 1 || axis > kAxesMax) {
+    return fail(Reason::unknown_axis, fmt::format("there is no axis {}: a stage has at most {}", axis, kAxesMax));
   }
   if (state_.controllable().empty()) {
     return fail(Reason::link_down,
@@ -36,8 +36,8 @@ Result<void> Envelope::check_axis(int axis) const {
   }
   if (!state_.axis(axis).controllable) {
     return fail_on(axis, Reason::unknown_axis,
-                   fmt::format("{} is not controllable on this unit (memory switch GENERAL-AXIS)", label(axis)),
-                   "use one of the controllable axes");
+                   fmt::format("{} cannot be used: this unit has {}", label(axis), to_string(state_.controllable())),
+                   "use one of its axes");
   }
   if (!state_.axis(axis).scale) {
     return fail_on(axis, Reason::position_unknown, fmt::format("{}: resolution unknown", label(axis)),

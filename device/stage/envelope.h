@@ -65,7 +65,7 @@ class Envelope {
   // Returns the strictest limit that applies to the caller: the lowest, or the highest if `sign` is -1.
   Result<std::optional<Bound>> innermost(int axis, std::optional<Quantity> AxisLimits::*limit, int sign) const;
   std::vector<const LimitOverride*> overrides_for(int axis) const;
-  const AxisProfile& profile(int axis) const { return profile_.axes[static_cast<std::size_t>(axis - 1)]; }
+  const AxisProfile& profile(int axis) const { return profile_.axis(axis); }
   const Scale& scale(int axis) const { return *state_.axis(axis).scale; }
 
   const Profile& profile_;

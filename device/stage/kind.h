@@ -45,6 +45,7 @@ class Kind {
   virtual ~Kind() = default;
 
   virtual std::string_view name() const = 0;  // value of `kind` in the configuration
+  virtual int axis_count() const = 0;         // axes of the largest unit, 1 to kAxesMax
   virtual std::span<const KindSetting> settings() const = 0;
 
   // `settings` has an allowed value for each of settings(). The other arguments must outlive the controller.

@@ -56,9 +56,11 @@ struct Profile {
   Duration reply_limit = std::chrono::milliseconds(500);  // from the last byte sent to the reply's last byte
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);
-  std::array<AxisProfile, kAxisCount> axes;
+  std::array<AxisProfile, kAxesMax> axes;
   AtExit at_exit = AtExit::stop;
   AtLeaseEnd settings_at_lease_end = AtLeaseEnd::restored;
+
+  const AxisProfile& axis(int number) const { return axes[static_cast<std::size_t>(number - 1)]; }
 };
 
 }  // namespace axisgate::stage

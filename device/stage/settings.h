@@ -78,7 +78,7 @@ struct UnsetOrigin {
 struct FireTrigger {};
 struct ResetController {};
 
-// All axis numbers in a Setting are 1 to kAxisCount.
+// All axis numbers in a Setting are 1 to kAxesMax.
 using Setting = std::variant<SetClosedLoop, SetExcitation, SetDivisions, SetSpeeds, SetOriginSpeeds, SetDisplay,
                              SetBeep, SetSettling, SetOutputs, SetTrigger, SetSleep, SetMode, SetFormat, SetCoordinates,
                              SetOrigin, UnsetOrigin, FireTrigger, ResetController>;

@@ -20,7 +20,7 @@ std::string_view name(LinkState state) {
 
 AxisSet State::controllable() const {
   AxisSet set;
-  for (int number = 1; number <= kAxisCount; ++number) {
+  for (int number = 1; number <= kAxesMax; ++number) {
     if (axis(number).controllable) set.add(number);
   }
   return set;

@@ -66,7 +66,7 @@ struct State {
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
   TimePoint epoch_began{};         // time at which device_epoch was last raised
   std::uint64_t frame_epoch = 0;   // raised with device_epoch, and when coordinates were set again: R: RC: PSET:
-  std::array<AxisState, kAxisCount> axes;
+  std::array<AxisState, kAxesMax> axes;
   std::optional<int> outputs;               // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
   std::optional<Trigger> trigger;           // as last read or set
   bool moving_unknown = false;              // the line was lost while something moved, and nothing was read since

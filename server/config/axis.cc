@@ -104,14 +104,14 @@ LimitOverride read_override(ConfigTable& table, const AxisProfile& axis) {
 
 }  // namespace
 
-void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
-               std::array<AxisProfile, stage::kAxisCount>& axes) {
+void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors, int count,
+               std::array<AxisProfile, stage::kAxesMax>& axes) {
   std::set<std::int64_t> numbers;
   std::set<std::string> names;
   for (const toml::table* source : device.tables("axis")) {
     ConfigTable table(*source, "device.axis", file, errors);
-    const std::optional<std::int64_t> number = table.integer("number", 1, stage::kAxisCount);
-    if (!number && !table.has("number")) table.missing("number", "1, 2 or 3");
+    const std::optional<std::int64_t> number = table.integer("number", 1, count);
+    if (!number && !table.has("number")) table.missing("number", fmt::format("1 to {}", count));
     if (number && !numbers.insert(*number).second) {
       table.error("number", fmt::format("{} is the number of another axis of this device, too", *number));
     }

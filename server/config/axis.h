@@ -11,8 +11,8 @@
 
 namespace axisgate::server {
 
-// Reads the axes of the table `device`. An axis without a table stays unchanged.
-void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
-               std::array<stage::AxisProfile, stage::kAxisCount>& axes);
+// Reads the axes of the table `device`, numbered from 1 to `count`. An axis without a table stays unchanged.
+void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors, int count,
+               std::array<stage::AxisProfile, stage::kAxesMax>& axes);
 
 }  // namespace axisgate::server

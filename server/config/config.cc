@@ -114,7 +114,7 @@ class ConfigReader {
     if (connection != ConnectionKind::simulated) stage.profile.serial_number = table.text("serial_number").value_or("");
     stage.kind_settings = read_kind_settings(table, kind);
     read_limits(table, stage.profile);
-    read_axes(table, file_, errors_, stage.profile.axes);
+    read_axes(table, file_, errors_, kind.axis_count(), stage.profile.axes);
     return stage;
   }
 

@@ -188,8 +188,8 @@ void write(TomlWriter& out, const StageConfig& stage, const DeviceConfig&) {
   out.milliseconds("reply_limit_ms", profile.reply_limit);
   out.milliseconds("idle_poll_ms", profile.idle_poll);
   out.milliseconds("moving_poll_ms", profile.moving_poll);
-  int number = 0;
-  for (const stage::AxisProfile& axis : profile.axes) write(out, ++number, axis);
+  const int count = stage.kind == nullptr ? 0 : stage.kind->axis_count();
+  for (int number = 1; number <= count; ++number) write(out, number, profile.axis(number));
 }
 
 void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) {

@@ -173,7 +173,7 @@ FactRecord fact_of(const journal::Entry& requested) {
   motion.request_id = text_in(body, "request_id");
   const auto axes = body.find("axes");
   for (const Json& axis : axes == body.end() ? Json::array() : *axes) {
-    if (axis.is_number_integer() && axis >= 1 && axis <= stage::kAxisCount) motion.axes.add(axis.get<int>());
+    if (axis.is_number_integer() && axis >= 1 && axis <= stage::kAxesMax) motion.axes.add(axis.get<int>());
   }
   const Moment clock{requested.boot_time, requested.time};
   return {.device = requested.device, .fact = stage::MotionChanged{std::move(motion)}, .clock = clock};

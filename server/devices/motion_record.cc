@@ -22,7 +22,7 @@ stage::AxisSet axes_in(const std::string& text) {
   unsigned bits = 0;
   std::from_chars(text.data(), text.data() + text.size(), bits);
   stage::AxisSet axes;
-  for (const int axis : stage::AxisSet::all().list()) {
+  for (const int axis : stage::AxisSet::first(stage::kAxesMax).list()) {
     if ((bits >> axis & 1U) != 0) axes.add(axis);
   }
   return axes;

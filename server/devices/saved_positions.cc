@@ -41,7 +41,7 @@ std::optional<std::map<int, std::int64_t>> coordinates_in(const std::string& tex
     const std::size_t colon = std::min(part.find(':'), part.size());
     const auto axis = number_in<int>(std::string_view(part).substr(0, colon));
     const auto pulses = number_in<std::int64_t>(std::string_view(part).substr(std::min(colon + 1, part.size())));
-    if (!axis || !pulses || *axis < 1 || *axis > stage::kAxisCount) return std::nullopt;
+    if (!axis || !pulses || *axis < 1 || *axis > stage::kAxesMax) return std::nullopt;
     if (!coordinates.emplace(*axis, *pulses).second) return std::nullopt;
   }
   return coordinates.empty() ? std::nullopt : std::optional(std::move(coordinates));

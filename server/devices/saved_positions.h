@@ -23,8 +23,8 @@ namespace axisgate::server {
 struct Frame {
   std::uint64_t device_epoch = 0, frame_epoch = 0;
   // Number of homings of each axis. Homing changes coordinates without raising the frame epoch.
-  std::array<int, stage::kAxisCount> homings{};
-  std::array<std::optional<Decimal>, stage::kAxisCount> per_pulse;
+  std::array<int, stage::kAxesMax> homings{};
+  std::array<std::optional<Decimal>, stage::kAxesMax> per_pulse;
 
   friend bool operator==(const Frame&, const Frame&) = default;
 };

@@ -41,7 +41,7 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
       kind_(*config.kind),
       profile_(profile_of(device, config)),
       newest_state_(readers),
-      metrics_(*metrics.registry(), profile_.name),
+      metrics_(*metrics.registry(), profile_.name, kind_.axis_count()),
       record_(std::move(record)),
       stops_(std::move(stops)),
       entries_(profile_.name, journal, requests),

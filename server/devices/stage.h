@@ -32,7 +32,7 @@ class Stage final : public Device {
 
   // These members may be called from any thread.
   std::string_view kind_name() const override { return kind_.name(); }
-  use::Scope whole() const override { return stage::AxisSet::all(); }
+  use::Scope whole() const override { return stage::AxisSet::first(kind_.axis_count()); }
   const stage::Kind& kind() const { return kind_; }
   const stage::Profile& profile() const { return profile_; }
   Newest<stage::State>& newest_state() { return newest_state_; }

@@ -40,7 +40,7 @@ Stop stop_in(const Json& json) {
   stop.id = json.at("id");
   stop.kind = json.at("emergency") ? stage::StopKind::emergency : stage::StopKind::stop;
   for (const int axis : json.at("axes").get<std::vector<int>>()) {
-    if (axis >= 1 && axis <= stage::kAxisCount) stop.axes.add(axis);
+    if (axis >= 1 && axis <= stage::kAxesMax) stop.axes.add(axis);
   }
   stop.state = json.at("written") ? stage::StopState::written : stage::StopState::asked;
   stop.callers = json.at("callers").get<std::vector<std::string>>();

@@ -116,15 +116,17 @@ struct StageMetrics::Families {
   Family<Counter>& unexpected_lines;
 };
 
-StageMetrics::StageMetrics(prometheus::Registry& registry, std::string device)
-    : StageMetrics(Families(registry), std::move(device)) {}
+StageMetrics::StageMetrics(prometheus::Registry& registry, std::string device, int axis_count)
+    : StageMetrics(Families(registry), std::move(device), axis_count) {}
 
-StageMetrics::StageMetrics(const Families& families, std::string device)
+StageMetrics::StageMetrics(const Families& families, std::string device, int axis_count)
     : device_(std::move(device)),
       exchanges_(families.exchanges),
       exchange_seconds_(families.exchange_seconds),
       motions_(families.motions),
       positions_family_(families.positions),
+      completions_(static_cast<std::size_t>(axis_count)),
+      positions_(static_cast<std::size_t>(axis_count)),
       normal_stops_(families.stops.Add({{"device", device_}, {"kind", "normal"}})),
       emergency_stops_(families.stops.Add({{"device", device_}, {"kind", "emergency"}})),
       open_stops_(families.open_stops.Add({{"device", device_}, {"late", "no"}})),

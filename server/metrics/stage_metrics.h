@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "device/core/lane.h"
 #include "device/stage/event.h"
@@ -22,7 +23,7 @@ namespace axisgate::server {
 // The time series of one stage. Called on the device's strand; `registry` must outlive this object.
 class StageMetrics {
  public:
-  StageMetrics(prometheus::Registry& registry, std::string device);
+  StageMetrics(prometheus::Registry& registry, std::string device, int axis_count);
 
   void on_event(const stage::Event& event);
   void set_state(const stage::State& state);
@@ -37,7 +38,7 @@ class StageMetrics {
     prometheus::Histogram* seconds = nullptr;
   };
 
-  StageMetrics(const Families& families, std::string device);
+  StageMetrics(const Families& families, std::string device, int axis_count);
 
   void count(const stage::ExchangeEnded& exchange);
   void count(const stage::BytesWritten& written) { bytes_out_.Increment(static_cast<double>(written.bytes.size())); }
@@ -74,10 +75,10 @@ class StageMetrics {
   std::unordered_map<std::string_view, CommandSeries> commands_;  // keys are the command table's own names
   std::array<prometheus::Gauge*, kLaneCount> lanes_{};
   std::array<prometheus::Histogram*, kLaneCount> waits_{};
-  std::array<prometheus::Counter*, 3> time_limits_{};  // by TimeLimitPassed::Kind
-  std::array<prometheus::Counter*, stage::kAxisCount> completions_{};
-  std::map<stage::Condition, prometheus::Counter*> conditions_;    // the reported conditions
-  std::array<prometheus::Gauge*, stage::kAxisCount> positions_{};  // null until a position is known
+  std::array<prometheus::Counter*, 3> time_limits_{};            // by TimeLimitPassed::Kind
+  std::vector<prometheus::Counter*> completions_;                // by axis
+  std::map<stage::Condition, prometheus::Counter*> conditions_;  // the reported conditions
+  std::vector<prometheus::Gauge*> positions_;                    // by axis; null until a position is known
   prometheus::Counter& normal_stops_;
   prometheus::Counter& emergency_stops_;
   prometheus::Gauge& open_stops_;

@@ -51,7 +51,7 @@ std::string position_text(std::optional<std::int64_t> pulses, const std::optiona
 }
 
 void fill_stage(int number, const stage::Profile& profile, const stage::State& state, v1::Axis& axis) {
-  const auto& stage = profile.axes[static_cast<std::size_t>(number - 1)].stage;
+  const auto& stage = profile.axis(number).stage;
   if (!stage) return;
   axis.set_stage(stage->model);
   const auto fits = stage::Envelope(profile, state, "", "").check_stage(number);
@@ -263,9 +263,9 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   proto.set_format(escaped(state.format));
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
-  for (int number = 1; number <= stage::kAxisCount; ++number) {
+  for (int number = 1; number <= device.kind().axis_count(); ++number) {
     v1::Axis& axis = *proto.add_axes();
-    fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number), axis);
+    fill_axis(number, device.profile().axis(number), state.axis(number), axis);
     fill_stage(number, device.profile(), state, axis);
   }
   if (state.outputs) proto.set_outputs(*state.outputs);
@@ -351,7 +351,7 @@ v1::DeviceStop to_proto(const api::DeviceStop& stop) {
   proto.set_device(api::device_name(stop.device->name()));
   const auto* stage = dynamic_cast<const server::Stage*>(stop.device);
   for (const stage::StopReport::Axis& axis : stop.report.axes) {
-    const stage::AxisProfile& profile = stage->profile().axes[static_cast<std::size_t>(axis.axis - 1)];
+    const stage::AxisProfile& profile = stage->profile().axis(axis.axis);
     v1::AxisStop& one = *proto.add_axes();
     one.set_axis(axis.axis);
     one.set_wire_reply(escaped(axis.wire_reply));

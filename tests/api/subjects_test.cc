@@ -78,6 +78,7 @@ TEST_F(CommandsOfApi, SomeLinesAreForAdministrators) {
 class AnySetting final : public stage::Kind {
  public:
   std::string_view name() const override { return "any"; }
+  int axis_count() const override { return 3; }
   std::span<const stage::KindSetting> settings() const override { return {}; }
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile&, const Words&, ByteLink&,
                                                           stage::EventSink&, use::Permission&) const override {
@@ -138,7 +139,7 @@ TEST_F(SettingLines, SomeAreChangedAlone) {
 
 TEST_F(SettingLines, AnAxisThatThereIsOnce) {
   const auto excited = [](int axis) { return AxisChange{.axis = axis, .excited = true}; };
-  EXPECT_EQ(lines(SettingsChange{.axes = {excited(4)}}), "UNKNOWN_AXIS: there is no axis 4");
+  EXPECT_EQ(lines(SettingsChange{.axes = {excited(9)}}), "UNKNOWN_AXIS: there is no axis 9: a stage has at most 8");
   EXPECT_EQ(lines(SettingsChange{.axes = {excited(3)}}), "UNKNOWN_AXIS: axis 3 cannot be moved here");
   EXPECT_EQ(lines(SettingsChange{.axes = {excited(1), excited(1)}}), "INVALID_REQUEST: axis 1 is named twice");
   state_.axis(1).scale.reset();

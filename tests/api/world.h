@@ -178,7 +178,7 @@ class World {
     // The callback may run after this function has returned, when another lease ends.
     const auto token = std::make_shared<std::atomic<server::LeaseToken>>(0);
     on_strand([&](stage::StageController&, TimePoint now) {
-      device().leases().acquire({.scope = stage::AxisSet::all()}, who, false, now, now,
+      device().leases().acquire({.scope = stage::AxisSet::first(3)}, who, false, now, now,
                                 [token](const Result<server::Lease>& lease) { *token = lease ? lease->token : 0; });
     });
     return *token;
@@ -190,7 +190,7 @@ class World {
   void latch(const std::string& who) {
     on_strand([&](stage::StageController&, TimePoint now) {
       constexpr stage::MotionId kNobodysMotion = 1'000'000;
-      const auto axes = stage::AxisSet::all();
+      const auto axes = stage::AxisSet::first(3);
       device().leases().begin({who, 0, axes, kNobodysMotion}, {}, now);
       device().leases().stop_asked({"unix eve", 0, axes, 0}, {}, now);
       device().leases().end(kNobodysMotion, now);

@@ -19,6 +19,7 @@ constexpr std::array<stage::KindSetting, 1> kSettings = {{{"direction", kDirecti
 class Rotor final : public stage::Kind {
  public:
   std::string_view name() const override { return "rotor"; }
+  int axis_count() const override { return 1; }
   std::span<const stage::KindSetting> settings() const override { return kSettings; }
 
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words& settings,

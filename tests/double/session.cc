@@ -141,7 +141,7 @@ std::optional<TimePoint> Controller::poll_at() const {
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    permission_.stop_asked({context.who, context.lease, axes.empty() ? AxisSet::all() : axes, 0}, {}, now);
+    permission_.stop_asked({context.who, context.lease, axes.empty() ? AxisSet::first(kAxesMax) : axes, 0}, {}, now);
     stop_rotor(axes.empty() ? kAxis : axes, false, context.who, std::move(done));
   });
 }
@@ -149,7 +149,7 @@ void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now
 // Stops the rotor like stop(): the rotor has only one stop command.
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    permission_.stop_asked({context.who, context.lease, AxisSet::all(), 0}, {}, now);
+    permission_.stop_asked({context.who, context.lease, AxisSet::first(kAxesMax), 0}, {}, now);
     stop_rotor(kAxis, true, context.who, std::move(done));
   });
 }

@@ -110,8 +110,8 @@ TEST(Curves, WhatIsNoCurveIsRefused) {
             "INVALID_REQUEST: the center of an arc has two coordinates, not 3");
   EXPECT_EQ(refused(around("center { axis: 2 distance { pulses: 1 } } center { axis: 2 distance { pulses: 1 } }")),
             "INVALID_REQUEST: the center of an arc names axis 2 twice");
-  EXPECT_EQ(refused(around("center { axis: 1 distance { pulses: 1 } } center { axis: 4 distance { pulses: 1 } }")),
-            "UNKNOWN_AXIS: there is no axis 4");
+  EXPECT_EQ(refused(around("center { axis: 1 distance { pulses: 1 } } center { axis: 9 distance { pulses: 1 } }")),
+            "UNKNOWN_AXIS: there is no axis 9: a stage has at most 8");
   EXPECT_EQ(refused(around("center { axis: 1 distance {} } center { axis: 2 distance { pulses: 1 } }")),
             "INVALID_REQUEST: axis 1: a distance has no amount");
   EXPECT_EQ(refused(through("point { axis: 1 distance { pulses: 1 } } point { axis: 2 distance { pulses: 1 } }")),
@@ -199,7 +199,7 @@ TEST(Scans, WhatIsMissingIsNamed) {
     const auto taken = scan(text);
     return taken ? "taken" : std::string(name(taken.error().reason)) + ": " + taken.error().message;
   };
-  EXPECT_EQ(message("axis: 4"), "UNKNOWN_AXIS: there is no axis 4");
+  EXPECT_EQ(message("axis: 9"), "UNKNOWN_AXIS: there is no axis 9: a stage has at most 8");
   EXPECT_EQ(message("axis: 1 from { pulses: 1 } drive_pulses: 2"), "INVALID_REQUEST: axis 1: a distance has no amount");
   EXPECT_EQ(message("axis: 1 from { pulses: 1 } to { pulses: 2 } speed {} drive_pulses: 2"),
             "INVALID_REQUEST: axis 1: a speed has no amount");

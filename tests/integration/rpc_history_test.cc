@@ -141,7 +141,7 @@ TEST_F(RpcHistory, EachConditionCounts) {
 
 TEST_F(RpcHistory, WhatIsNoConditionIsRefused) {
   v1::ListHistoryRequest axis;
-  axis.set_axis(4);
+  axis.set_axis(9);
   EXPECT_EQ(refused(axis), v1::REASON_INVALID_REQUEST);
   axis.set_axis(-1);
   EXPECT_EQ(refused(axis), v1::REASON_INVALID_REQUEST);

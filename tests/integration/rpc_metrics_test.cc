@@ -67,7 +67,7 @@ class RpcMetricsTest : public RpcTest {
   // Facts about nobody, so long that a few hundred fill what gRPC takes on for a reader.
   void publish(std::size_t facts) {
     const TimePoint now = monotonic_now();
-    const stage::StopRequested fact{stage::AxisSet::all(), false, std::string(4096, 'x')};
+    const stage::StopRequested fact{stage::AxisSet::first(3), false, std::string(4096, 'x')};
     for (std::size_t i = 0; i < facts; ++i) gateway_->events().publish("nobody", fact, server::to_wall(now));
   }
 

@@ -32,7 +32,7 @@ class Interleavings : public testing::Test {
     return sets;
   }
   // Returns a set of one, of two and of three axes.
-  static std::vector<Axes> counts() { return {Axes::of(1), Axes::of(1) | Axes::of(2), Axes::all()}; }
+  static std::vector<Axes> counts() { return {Axes::of(1), Axes::of(1) | Axes::of(2), shrc203::kAllAxes}; }
 
   // Tries every order for one question, and reports the first failure.
   void try_all(const Question& question) {

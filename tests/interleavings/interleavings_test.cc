@@ -23,12 +23,12 @@ TEST_F(Interleavings, EachSuchRowIsKeptApart) {
 
 // Uses all sets of controllable axes, because for rows that answer only 0 and 1 it matters which axes these are.
 TEST_F(Interleavings, WhileTheAxesMove) {
-  each_question(every_row, subsets(AxisSet::all()), [this](Question question) { try_all(question); });
+  each_question(every_row, subsets(kAllAxes), [this](Question question) { try_all(question); });
 }
 
 // More motions and their axis numbers may follow in the same transaction, so no row can be closed by !:S.
 TEST_F(Interleavings, WhileACallersOwnMotionRuns) {
-  each_question(closed_rows, subsets(AxisSet::all()), [this](Question question) {
+  each_question(closed_rows, subsets(kAllAxes), [this](Question question) {
     question.by_execute = true;
     try_all(question);
   });
@@ -37,7 +37,7 @@ TEST_F(Interleavings, WhileACallersOwnMotionRuns) {
 // A question that waits is refused without being sent, and no axis number is lost. Other questions are answered as
 // above.
 TEST_F(Interleavings, WhileTheAxesMoveForLongerThanTheQuestionMayWait) {
-  each_question(rows_of_host, subsets(AxisSet::all()), [this](Question question) {
+  each_question(rows_of_host, subsets(kAllAxes), [this](Question question) {
     question.moment = Moment::moving_beyond_its_time;
     const bool first =
         question.value == values_of(*question.row).front();  // the question is not answered, so one value is enough

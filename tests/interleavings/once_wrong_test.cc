@@ -42,7 +42,7 @@ TEST_F(InterleavingsOnceWrong, ANumberIsForgottenWhenTheLastAnswerIsCertain) {
 // Tries every order with two callers and at most two moving axes: with three axes there are 100,000 orders, which take
 // too long.
 TEST_F(InterleavingsOnceWrong, TwoCallersAtOnce) {
-  each_question(closed_rows, subsets(AxisSet::all()), [this](Question question) {
+  each_question(closed_rows, subsets(kAllAxes), [this](Question question) {
     question.shared = true;
     if (question.moving.count() < kAxisCount) try_all(question);
   });

@@ -103,7 +103,7 @@ void Callers::home() {
   HomeRequest request;
   request.context = world_.context(who(random));
   request.axes = AxisSet::of(static_cast<int>(random.between(1, 3)));
-  if (random.chance(0.3)) request.axes = AxisSet::all();
+  if (random.chance(0.3)) request.axes = kAllAxes;
   for (const int axis : request.axes.list()) ++starts_allowed_[static_cast<std::size_t>(axis - 1)];
   if (random.chance(0.5)) {
     world_.controller().home(request, world_.now(), [](Result<Motion>) {});

@@ -41,7 +41,7 @@ class Callers {
   World& world_;
   Mishaps mishaps_;
   const Habits habits_;
-  std::array<int, stage::kAxisCount> starts_allowed_{};
+  std::array<int, shrc203::kAxisCount> starts_allowed_{};
   int unfinished_questions_ = 0;
 };
 

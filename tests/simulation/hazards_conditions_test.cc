@@ -135,7 +135,7 @@ TEST_P(Hazard61, AnErrorWithoutABit) {
 
 // Moves and a homing change the status, but no person at the panel causes that.
 TEST_P(Hazard61, WhatIsAskedHereIsNone) {
-  home(*world_, AxisSet::all());
+  home(*world_, kAllAxes);
   EXPECT_EQ(outcome_of(*world_, 1).state, MotionState::succeeded) << world_->replay();
   moved(*world_, {{1, 1000}, {2, -2000}});
   execute(*world_, {"P:R", "P:H"});

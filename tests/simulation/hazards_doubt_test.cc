@@ -342,7 +342,7 @@ TEST(Handshake, OneMisreadDigitTakesNoAxisAway) {
   World world(quiet());
   world.wire().set_script(replace_first(world, LineKind::reply, "?:AXIS", "2\r\n"));
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  EXPECT_EQ(world.controller().state().controllable(), AxisSet::all()) << world.replay();
+  EXPECT_EQ(world.controller().state().controllable(), kAllAxes) << world.replay();
 }
 
 // A question that a completion could answer waits no longer than its caller does.

@@ -100,7 +100,7 @@ TEST_F(HazardOfFrames, H27_RefusedOrInDoubt) {
 
 // The travel limits count from the origin found by homing.
 TEST_F(HazardOfFrames, H27_TheOriginIsNoLongerTheOneThatWasFound) {
-  home(world, AxisSet::all());
+  home(world, kAllAxes);
   outcome_of(world, 1);
   EXPECT_TRUE(homed(1) && homed(2));
   EXPECT_EQ(execute("R:1"), std::vector<std::string>{"OK"});

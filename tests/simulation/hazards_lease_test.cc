@@ -247,7 +247,7 @@ TEST_F(HazardOfSharing, H53_JoinedStopsEachGetTheOutcome) {
 }
 
 TEST_F(HazardOfSharing, H06_AnothersHomeFailsAtOnce) {
-  const LeaseToken token = lease("anna", AxisSet::all());
+  const LeaseToken token = lease("anna", kAllAxes);
   (void)token;
   std::optional<Reason> reason;
   world.controller().home({kOne, context("bert", 0)}, world.now(), [&](const Result<Motion>& motion) {

@@ -129,7 +129,7 @@ TEST(Hazard, H06_HomeTwice) {
   world.run_for(milliseconds(50));
   const std::size_t lines = world.wire().commands().size();
   std::optional<Result<Motion>> second;
-  world.controller().home({AxisSet::all(), world.context("two")}, world.now(), [&](Result<Motion> m) { second = m; });
+  world.controller().home({kAllAxes, world.context("two")}, world.now(), [&](Result<Motion> m) { second = m; });
   ASSERT_TRUE(second.has_value()) << "not refused at once";
   ASSERT_FALSE(second->has_value());
   EXPECT_EQ(second->error().reason, Reason::axis_busy);

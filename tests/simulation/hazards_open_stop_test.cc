@@ -171,7 +171,7 @@ TEST(HazardOfStopsInDoubt, H21_AControllerThatWasFrozenHasNotRestarted) {
 TEST_F(HazardOfOpenStops, H54_AWiderStopAnswersTheCallersOfANarrowerOne) {
   lose_all_for(milliseconds(2500));
   const auto one = stop(AxisSet::of(1));
-  const auto all = stop(AxisSet::all());
+  const auto all = stop(kAllAxes);
   const auto again = stop(AxisSet::of(2));
   EXPECT_EQ(open(), 1u);
   const auto emergency = stop({}, true);
@@ -261,7 +261,7 @@ TEST(StopAndMotion, AgreeAThousandTimes) {
       const bool rests = !report.problem && report.axes.front().ready.value_or(false);
       bool granted = false;
       server::LeaseTerms terms;
-      terms.scope = AxisSet::all();
+      terms.scope = kAllAxes;
       leases.acquire(terms, "carl", false, world.now(), world.now(), [&](const Result<server::Lease>& lease) {
         granted = lease.has_value();
         if (lease) (void)leases.release(lease->token, world.now());
@@ -295,7 +295,7 @@ TEST_F(EmergencyLatch, H20_ItHoldsWhateverBecameOfTheStop) {
   ASSERT_TRUE(world.controller().state().emergency);
   EXPECT_EQ(refusal_of_a_move(), Reason::emergency_stopped);
   EXPECT_THAT(execute(world, {"M:2+P100", "G:2"}), ElementsAre("EMERGENCY_STOPPED"));
-  EXPECT_EQ(clear(AxisSet::all()), Reason::stop_unconfirmed) << world.replay();
+  EXPECT_EQ(clear(kAllAxes), Reason::stop_unconfirmed) << world.replay();
   world.wire().set_script({});
   ASSERT_TRUE(world.run_until([this] { return open() == 0; }, seconds(30))) << world.replay();
   EXPECT_EQ(refusal_of_a_move(), Reason::emergency_stopped);
@@ -310,9 +310,9 @@ TEST_F(EmergencyLatch, H20_OnlyClearingAllAxesLiftsIt) {
   EXPECT_EQ(clear(AxisSet::of(1)), Reason::unspecified);
   EXPECT_EQ(refusal_of_a_move(), Reason::emergency_stopped);
   world.wire().set_script(drop_first(world, LineKind::reply, "BEC:"));
-  EXPECT_NE(clear(AxisSet::all()), Reason::unspecified);
+  EXPECT_NE(clear(kAllAxes), Reason::unspecified);
   EXPECT_EQ(refusal_of_a_move(), Reason::emergency_stopped) << "lifted without an answer to BEC:";
-  EXPECT_EQ(clear(AxisSet::all()), Reason::unspecified);
+  EXPECT_EQ(clear(kAllAxes), Reason::unspecified);
   EXPECT_FALSE(world.controller().state().emergency);
   EXPECT_THAT(execute(world, {"C:D1"}), ElementsAre("OK"));
   moved(world, {{1, 100}});

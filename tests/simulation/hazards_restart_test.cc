@@ -52,7 +52,7 @@ void restart_at_rest(Duration silence, std::int64_t place, bool stop_follows) {
   for (int phase = 0; phase < 1200 && !testing::Test::HasFailure(); phase += 110) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    home(world, AxisSet::all());
+    home(world, kAllAxes);
     ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
     if (place != 0) moved(world, {{1, place}});
     world.run_for(milliseconds(1500 + phase));
@@ -194,7 +194,7 @@ TEST(Hazard, H21_OneDamagedReadingProvesNothing) {
 TEST(Hazard, H21_NoFalseAlarm) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  home(world, AxisSet::all());
+  home(world, kAllAxes);
   ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
   const std::uint64_t epoch = world.controller().state().device_epoch;
   for (int i = 0; i < 40 && !HasFailure(); ++i) {
@@ -214,7 +214,7 @@ TEST(Hazard, H21_NoFalseAlarmWhenTheAnswerIsLost) {
   for (const LineKind lost : {LineKind::command, LineKind::reply}) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    home(world, AxisSet::all());
+    home(world, kAllAxes);
     ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
     moved(world, {{1, 10}});
     const std::uint64_t epoch = world.controller().state().device_epoch;
@@ -232,7 +232,7 @@ class HazardH22 : public testing::TestWithParam<Boot> {};
 TEST_P(HazardH22, NoMotionBeforeTheHandshakeHasPassed) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  home(world, AxisSet::all());
+  home(world, kAllAxes);
   ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
   move_by(world, {{1, 500000}});
   world.run_for(seconds(1));

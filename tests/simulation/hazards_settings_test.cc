@@ -176,7 +176,7 @@ TEST_F(HazardOfSettings, H28_ALossOfTheLineWhileItWaitsItsTurn) {
 // ones.
 TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
   EXPECT_EQ(set({"O:9", "T:P2P500"}, "boss", 0), std::nullopt) << world.replay();
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   EXPECT_EQ(set({"O:32", "T:E1P+2"}, "anna", anna), std::nullopt) << world.replay();
   EXPECT_EQ(set({"O:1", "T:T100"}, "anna", anna), std::nullopt) << world.replay();
   EXPECT_EQ(world.controller().state().outputs, 1);
@@ -193,7 +193,7 @@ TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
 
 // At the end of the daemon, outputs are off and the trigger is disarmed again, as before the lease.
 TEST_F(HazardOfSettings, H52_ATriggerEndsWithTheDaemon) {
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   EXPECT_EQ(set({"O:5", "T:P1P100"}, "anna", anna), std::nullopt) << world.replay();
   bool ended = false;
   world.controller().wind_down(world.now(), [&](const WindDownReport&) { ended = true; });
@@ -204,7 +204,7 @@ TEST_F(HazardOfSettings, H52_ATriggerEndsWithTheDaemon) {
 
 // The answer to O: is lost, although the command was accepted: the outputs are read and set back.
 TEST_F(HazardOfSettings, H52_OutputsWhoseAnswerWasLost) {
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   bool dropped = false;
   world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
     if (dropped || kind != LineKind::reply || line != "OK") return {};
@@ -221,7 +221,7 @@ TEST_F(HazardOfSettings, H52_OutputsWhoseAnswerWasLost) {
 
 // Outputs do not depend on motion, so a shutter can open while the stage moves (manual 96) names no condition).
 TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   MoveRequest request = move_of(world, {{1, 500'000}}, true);
   request.context = context("anna", anna);
   world.controller().move(request, world.now(), [](const Result<Motion>&) {});
@@ -257,7 +257,7 @@ TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
 
 // Outputs are sent under the lease with which they were requested, or not at all.
 TEST_F(HazardOfSettings, H35_OutputsOfALeaseThatEndedAreNotSent) {
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   world.wire().hold_up(true, seconds(1));
   world.controller().execute({{"?:V"}, world.context("bert")}, world.now(), [](const ExecuteEvent&) {});
   std::optional<Problem> problem;
@@ -274,7 +274,7 @@ TEST_F(HazardOfSettings, H35_OutputsOfALeaseThatEndedAreNotSent) {
 // After a restart of the controller the gateway switches nothing on.
 TEST_F(HazardOfSettings, H52_NothingIsSwitchedOnAfterARestart) {
   EXPECT_EQ(set({"O:32", "T:T100"}, "boss", 0), std::nullopt) << world.replay();
-  const LeaseToken anna = lease("anna", AxisSet::all());
+  const LeaseToken anna = lease("anna", kAllAxes);
   EXPECT_EQ(set({"O:0", "T:S"}, "anna", anna), std::nullopt) << world.replay();
   world.power_cycle();
   world.run_for(seconds(60));

@@ -51,7 +51,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
   static Way way() { return std::get<0>(GetParam()); }
   static Fault fault() { return std::get<1>(GetParam()); }
   static bool all_axes() { return std::get<2>(GetParam()); }
-  static AxisSet axes() { return all_axes() ? AxisSet::all() : AxisSet::of(1); }
+  static AxisSet axes() { return all_axes() ? kAllAxes : AxisSet::of(1); }
 
   simulation::Setup with_leases() {
     simulation::Setup shared = quiet();

@@ -63,7 +63,7 @@ TEST_F(ToPositions, AllAxesReachThePlaceTogether) {
   const Motion motion = go(to(true, 7, {{1, 3000}, {2, -2000}, {3, 500}}));
   EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
   EXPECT_EQ(motion.kind, MotionKind::move);
-  EXPECT_EQ(motion.axes, AxisSet::all());
+  EXPECT_EQ(motion.axes, kAllAxes);
   EXPECT_THAT(stands(), testing::ElementsAre(3000, -2000, 500));
   ASSERT_EQ(motion.results.size(), 3u);
   EXPECT_EQ(motion.results[1].target_pulses, -2000);

@@ -31,7 +31,7 @@ TEST(QuietLine, HandshakeComesUp) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   EXPECT_EQ(world.controller().state().serial_number, "2106001001");
-  EXPECT_EQ(world.controller().state().controllable(), AxisSet::all());
+  EXPECT_EQ(world.controller().state().controllable(), kAllAxes);
 }
 
 TEST(QuietLine, HomeThenMoveReachesTheTarget) {

@@ -46,7 +46,7 @@ class Retries {
  private:
   using Key = server::journal::RequestMemory::Key;
   using Known = server::journal::RequestMemory::Known;
-  using Places = std::array<std::int64_t, stage::kAxisCount>;
+  using Places = std::array<std::int64_t, shrc203::kAxisCount>;
 
   // A request of one user. Its displacements, in pulses, are unique.
   struct Wanted {

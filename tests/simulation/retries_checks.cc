@@ -36,7 +36,7 @@ std::vector<std::int64_t> amounts_in(std::string_view line) {
 
 // Returns the axes of a motion's line, from the letter after the colon.
 AxisSet axes_of(std::string_view line) {
-  return from_command_letter(line[line.find(':') + 1], AxisSet::all()).value_or(AxisSet());
+  return from_command_letter(line[line.find(':') + 1], kAllAxes).value_or(AxisSet());
 }
 
 // Reports whether the line is a setting that G: starts, including J:.

@@ -278,7 +278,7 @@ TEST_F(Turns, AMotionOfSeveralAxesAmidOthersOfOneEach) {
   const TimePoint asked = world().now();
   const auto answered = move_rarely(world(), {{1, way_}, {2, way_}, {3, way_}}, seconds(10));
   ASSERT_TRUE(busy_until(
-      AxisSet::all(), [&] { return answered->at.has_value(); }, seconds(12)));
+      kAllAxes, [&] { return answered->at.has_value(); }, seconds(12)));
   EXPECT_FALSE(answered->problem) << answered->problem->message;
   EXPECT_LE(*answered->at - asked, kTurnAfter + seconds(1)) << world().replay();
 }

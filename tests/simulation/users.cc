@@ -30,7 +30,7 @@ Setup setup_of(std::uint64_t seed, const Faults& faults, Permission& permission)
 AxisSet drawn_axes(Random& random) {
   AxisSet axes = AxisSet::of(static_cast<int>(random.between(1, 3)));
   if (random.chance(0.3)) axes.add(static_cast<int>(random.between(1, 3)));
-  return random.chance(0.1) ? AxisSet::all() : axes;
+  return random.chance(0.1) ? kAllAxes : axes;
 }
 
 }  // namespace
@@ -248,7 +248,7 @@ void Users::execute(User& user, LeaseToken token) {
     request.lines.push_back(fmt::format("A:{}+P{}", axis, random.between(0, 20'000)));
     request.lines.push_back(fmt::format("G:{}", axis));
   }
-  const bool whole = leased && grants_.at(token).axes == AxisSet::all();
+  const bool whole = leased && grants_.at(token).axes == kAllAxes;
   if (whole && random.chance(0.5)) request.lines.push_back(fmt::format("O:{}", random.between(1, 63)));
   if (whole && random.chance(0.5)) request.lines.push_back(fmt::format("T:P{}P{}", axis, random.between(2, 30'000)));
   if (request.lines.empty()) return;
@@ -277,7 +277,7 @@ void Users::keep_jogs() {
 void Users::stop(User& user) {
   auto& random = world_.random();
   const AxisSet axes = random.chance(0.3) ? AxisSet() : drawn_axes(random);
-  const AxisSet hit = axes.empty() ? AxisSet::all() : axes;
+  const AxisSet hit = axes.empty() ? kAllAxes : axes;
   const LeaseToken token = random.chance(0.5) ? user.token : 0;
   for (auto& [lease, grant] : grants_) {
     const bool held = owned(grant);

@@ -19,7 +19,7 @@ bool moves_something(const std::string& line) { return sets_motion(line) || star
 // Returns the axes of a motion's line, from the letter after the colon.
 AxisSet axes_of(const std::string& line) {
   const auto colon = line.find(':');
-  const auto axes = from_command_letter(line[colon + 1], AxisSet::all());
+  const auto axes = from_command_letter(line[colon + 1], kAllAxes);
   return axes.value_or(AxisSet());
 }
 
@@ -75,7 +75,7 @@ void Users::check_outputs(const BytesWritten& written) {
   if (!sets && !moves_something(written.bytes)) return;
   bool wired = false;
   for (auto& [token, grant] : grants_) {
-    if (grant.who != written.who || grant.axes != AxisSet::all()) continue;
+    if (grant.who != written.who || grant.axes != kAllAxes) continue;
     grant.wired = grant.wired || sets;
     wired = wired || grant.wired;
   }

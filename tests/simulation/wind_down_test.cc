@@ -301,7 +301,7 @@ TEST_P(WindDownSeeds, NothingStartsAndEveryMotionHasItsOutcome) {
       EXPECT_LE(world.now() - begun, limit) << world.replay();
       EXPECT_EQ(motion_lines(world, begun_after), 0) << world.replay();
     }
-    for (const int axis : AxisSet::all().list()) {
+    for (const int axis : kAllAxes.list()) {
       EXPECT_TRUE(!seen || !world.device().busy(axis)) << axis << "\n" << world.replay();
     }
   }

@@ -110,7 +110,7 @@ class World : public stage::EventSink {
   std::optional<TimePoint> rebooted_;
   Duration restart_lasts_{};
   std::size_t written_before_reboot_ = 0;
-  std::array<std::int64_t, stage::kAxisCount> before_reboot_{};
+  std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
   TimePoint now_{};
   std::multimap<TimePoint, std::function<void()>> operations_;
   std::size_t written_when_last_ended_ = 0;  // number of commands when an exchange last ended

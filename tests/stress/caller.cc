@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "device/shrc203/stage.h"
+
 namespace axisgate::stress {
 namespace {
 
@@ -106,7 +108,7 @@ void Caller::transaction(std::size_t device) {
 }
 
 void Caller::set_and_go(std::size_t device) {
-  const int axis = draw(1, kAxisCount);
+  const int axis = draw(1, shrc203::kAxisCount);
   execute(device, {fmt::format("M:{}+P100", axis), fmt::format("G:{}", axis)}, {"OK", "OK"});
 }
 
@@ -179,7 +181,7 @@ void Caller::move(std::size_t device) {
   request.context = context(asked);
   // A stop may leave a stale setpoint of either kind; the next setpoint of the same kind overwrites it.
   request.relative = draw(0, 1) == 0;
-  request.moves.push_back({draw(1, kAxisCount), pulses(draw(-3000, 3000)), {}});
+  request.moves.push_back({draw(1, shrc203::kAxisCount), pulses(draw(-3000, 3000)), {}});
   bench_.device(device).post(
       [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
         controller.move(request, now, started);
@@ -190,7 +192,7 @@ void Caller::path(std::size_t device) {
   const auto asked = ticket(device, "a path");
   PathRequest request;
   request.context = context(asked);
-  const int axis = draw(1, kAxisCount);
+  const int axis = draw(1, shrc203::kAxisCount);
   for (const int way : {500, -500, 500, -500}) request.segments.push_back({{{axis, pulses(way), {}}}, true, {}, {}});
   bench_.device(device).post(
       [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
@@ -200,7 +202,7 @@ void Caller::path(std::size_t device) {
 
 void Caller::home(std::size_t device) {
   const auto asked = ticket(device, "an origin return");
-  HomeRequest request{AxisSet::of(draw(1, kAxisCount)), context(asked)};
+  HomeRequest request{AxisSet::of(draw(1, shrc203::kAxisCount)), context(asked)};
   bench_.device(device).post(
       [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
         controller.home(request, now, started);

@@ -7,7 +7,7 @@ namespace axisgate::shrc203 {
 char command_letter(AxisSet axes) {
   assert(!axes.empty());
   if (axes.count() == 1) return static_cast<char>('0' + axes.lowest());
-  if (axes == AxisSet::all()) return 'D';
+  if (axes == kAllAxes) return 'D';
   if (!axes.has(3)) return 'A';
   return axes.has(1) ? 'B' : 'C';
 }
@@ -27,7 +27,7 @@ std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable) {
     case 'C':
       return AxisSet::of(2) | AxisSet::of(3);
     case 'D':
-      return AxisSet::all();
+      return kAllAxes;
     case 'W':
       return controllable;
     default:
@@ -50,7 +50,7 @@ std::optional<AxisSet> from_status_letter(char letter) {
     case 'E':
       return AxisSet::of(2) | AxisSet::of(3);
     case 'W':
-      return AxisSet::all();
+      return kAllAxes;
     default:
       return std::nullopt;
   }
@@ -72,7 +72,7 @@ std::optional<AxisSet> from_axis_setting(std::string_view digit) {
     case '5':
       return AxisSet::of(2) | AxisSet::of(3);
     case '6':
-      return AxisSet::all();
+      return kAllAxes;
     default:
       return std::nullopt;
   }

@@ -46,7 +46,7 @@ AxisSet Command::axes(AxisSet controllable) const {
   const auto parameter = std::ranges::find(row->parameters, "a", &Parameter::letter);
   const bool time = letter && parameter->kind != Parameter::Kind::choice;  // interval of T:T (manual 97))
   if (!letter || time) return controllable;
-  if (row->third_axis) return AxisSet::all();
+  if (row->third_axis) return kAllAxes;
   return from_command_letter(letter->front(), controllable).value_or(controllable);
 }
 

@@ -168,7 +168,7 @@ Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
 std::size_t axes_named(const Arguments& arguments) {
   const auto letter = arguments.first("a");
   if (!letter || *letter == "W") return 0;
-  const auto axes = from_command_letter(letter->front(), AxisSet::all());
+  const auto axes = from_command_letter(letter->front(), kAllAxes);
   return axes ? static_cast<std::size_t>(axes->count()) : 0;
 }
 

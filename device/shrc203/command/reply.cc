@@ -246,7 +246,7 @@ std::optional<Identity> parse_identity(std::string_view line) {
 }
 
 std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable) {
-  const auto named = reply.fields.size() == kAxisCount ? AxisSet::all().list() : controllable.list();
+  const auto named = reply.fields.size() == kAxisCount ? kAllAxes.list() : controllable.list();
   std::map<int, std::string> fields;
   if (named.size() != reply.fields.size()) return fields;
   for (std::size_t i = 0; i < named.size(); ++i) {
@@ -258,7 +258,7 @@ std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable) {
 std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable) {
   const std::size_t count = reply.fields.size() / 3;
   if (reply.fields.size() != 3 * count || count == 0 || count > kAxisCount) return {};
-  const auto named = count == kAxisCount ? AxisSet::all().list() : controllable.list();
+  const auto named = count == kAxisCount ? kAllAxes.list() : controllable.list();
   if (named.size() != count) return {};
   std::vector<AxisReading> readings(kAxisCount);
   for (std::size_t i = 0; i < count; ++i) {

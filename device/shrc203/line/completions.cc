@@ -56,7 +56,7 @@ AxisSet Completions::busy(AxisSet axes) {
 }
 
 void Completions::answered(TimePoint written, AxisSet busy) {
-  for (const int number : AxisSet::all().list()) {
+  for (const int number : kAllAxes.list()) {
     Axis& one = axis(number);
     if (busy.has(number)) continue;
     const bool after = one.until && (*one.until <= written || !guarded(Guard::settled_by_exchange));
@@ -66,7 +66,7 @@ void Completions::answered(TimePoint written, AxisSet busy) {
 
 AxisSet Completions::possible() const {
   AxisSet set;
-  for (const int number : AxisSet::all().list()) {
+  for (const int number : kAllAxes.list()) {
     if (axis(number).possible) set.add(number);
   }
   return set;

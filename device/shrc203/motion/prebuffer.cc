@@ -21,7 +21,7 @@ Task<bool> Prebuffer::is_empty(LiveMotionPtr live, Sent sent) {
   auto found = co_await read(live, sent.setter);
   if (found == Held::other && guarded(Guard::wrong_segments_stop)) {
     // The changed segment may move any axis. The reply itself may have been misread, so it is read again.
-    line_.completions().chained(AxisSet::all(), tasks_.now());
+    line_.completions().chained(kAllAxes, tasks_.now());
     found = co_await read(live, sent.setter);
     if (found == Held::other) co_await stop_wrong_segment(live, std::move(sent));
   }
@@ -29,7 +29,7 @@ Task<bool> Prebuffer::is_empty(LiveMotionPtr live, Sent sent) {
 }
 
 Task<void> Prebuffer::stop_wrong_segment(LiveMotionPtr live, Sent sent) {
-  stops_.stop(AxisSet::all(), {.who = "the gateway (the line changed a segment)"});
+  stops_.stop(kAllAxes, {.who = "the gateway (the line changed a segment)"});
   co_await standstill_.wait(live);
   motions_.end(
       *live, MotionState::failed,

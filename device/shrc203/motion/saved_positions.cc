@@ -81,10 +81,10 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
   }
   auto good = check(request);
   // The controller decides which axes need not move: it is one command for all.
-  if (good) good = rights_.authorize_motion(request.context, AxisSet::all());
+  if (good) good = rights_.authorize_motion(request.context, kAllAxes);
   if (!good) return started(tl::unexpected(good.error()));
   auto live = motions_.create(MotionKind::move, axes, request.context, std::move(started));
-  live->uses = AxisSet::all();
+  live->uses = kAllAxes;
   tasks_.spawn(run(live, std::move(request)));
 }
 

@@ -97,7 +97,7 @@ Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
   Problem why = result.problem.value_or(Problem{});
   if (result.refused()) {
     store_.note_trigger({});  // the line may have caused the NG: the trigger is read again before it is restored
-    why = co_await explainer_.explain(setter, AxisSet::all(), live->context.who);
+    why = co_await explainer_.explain(setter, kAllAxes, live->context.who);
   }
   motions_.disconnect(*live, why);
   co_return false;

@@ -39,7 +39,7 @@ Extent joined(const Extent& one, const Extent& other) {
 }  // namespace
 
 Result<ArcLine> arc_of(const Command& command, const Envelope& envelope) {
-  const auto plane = from_command_letter(command.arguments.first("a")->front(), AxisSet::all())->list();
+  const auto plane = from_command_letter(command.arguments.first("a")->front(), kAllAxes)->list();
   ArcLine line{{}, {plane[0], plane[1], command.row->third_axis ? 3 : 0}, {}};
   for (const int axis : line.axes) {
     if (axis == 0) continue;

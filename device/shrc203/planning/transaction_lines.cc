@@ -221,7 +221,7 @@ AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable) {
   AxisSet axes;
   for (const Command& command : commands) {
     if (command.row->effect == Effect::question) continue;
-    axes = axes | (command.row->scope == CommandScope::axes ? command.axes(controllable) : AxisSet::all());
+    axes = axes | (command.row->scope == CommandScope::axes ? command.axes(controllable) : kAllAxes);
   }
   return axes;
 }
@@ -242,7 +242,7 @@ std::string picked(const Command& asked, const Reply& reply, AxisSet controllabl
   const bool whole = reply.fields.size() == kAxisCount;
   std::string answer;
   std::size_t place = 0;
-  for (const int axis : (whole ? AxisSet::all() : controllable).list()) {
+  for (const int axis : (whole ? kAllAxes : controllable).list()) {
     if (place >= reply.fields.size()) break;
     const auto& field = reply.fields[place++];
     if (!wanted.has(axis)) continue;

@@ -159,7 +159,7 @@ void Replay::connect_before(TimePoint first) {
   line_.link_up(first - 4 * kReplayConnectStep);
   line_.receive(first_identity(), first - 4 * kReplayConnectStep);
   line_.advance(first - 3 * kReplayConnectStep);
-  line_.ready(AxisSet::all(), first - 2 * kReplayConnectStep);
+  line_.ready(kAllAxes, first - 2 * kReplayConnectStep);
   line_.completions().answered(first - kReplayConnectStep);
   line_.completions().started(header_.may_complete, first - kReplayConnectStep);
   line_.open(*header_.axes, first);

@@ -44,7 +44,7 @@ Task<void> Handshake::run(Identity identity, std::uint64_t connection) {
     co_return;
   }
   if (store_.begin_epoch() > 1) permission_.device_restarted(tasks_.now());
-  store_.shift_frame(AxisSet::all());
+  store_.shift_frame(kAllAxes);
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   line_.open(store_.controllable(), tasks_.now());
   motions_.pace_changed().notify();
@@ -111,7 +111,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
       previous_run_.all_stationary();
-      line_.ready(AxisSet::all(), tasks_.now());
+      line_.ready(kAllAxes, tasks_.now());
       auto quiet = tasks_.pause(kNoCompletionAfterReady);
       co_await quiet;
       co_return connection == store_.connection();
@@ -129,7 +129,7 @@ std::string_view Handshake::origin_of_motion() const {
 }
 
 Task<void> Handshake::wait_for_others() {
-  line_.busy(AxisSet::all(), tasks_.now());
+  line_.busy(kAllAxes, tasks_.now());
   stops_.axes_move();
   store_.note_trouble(LinkTrouble::motion,
                       fmt::format("something moves that {}; waiting until it is stationary", origin_of_motion()));

@@ -136,7 +136,7 @@ Task<void> NonHostVisit::come_back(LiveMotionPtr live, Course course) {
     known = co_await settings_.read(store_.connection());
   }
   registers_.forget();
-  if (program) store_.shift_frame(AxisSet::all());
+  if (program) store_.shift_frame(kAllAxes);
   for (auto& result : live->motion.results) {
     result.target_pulses = store_.state().axis(result.axis).position_pulses;
   }

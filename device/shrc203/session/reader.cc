@@ -67,7 +67,7 @@ AxisSet Reader::moving_silently() const { return motions_.running() - line_.comp
 bool Reader::apply_positions(const Reply& reply) {
   const auto read = store_.note_positions(reply);
   if (!read) return false;
-  line_.ready(read->ready | (AxisSet::all() - store_.controllable()), tasks_.now());
+  line_.ready(read->ready | (kAllAxes - store_.controllable()), tasks_.now());
   line_.busy(read->busy - moving_silently(), tasks_.now());
   store_.note_foreign_motion(read->busy, motions_.inside());
   motions_.seen_stationary(read->ready);

@@ -145,8 +145,8 @@ Task<void> Restorer::restore_settings_of(EndedLease lease) {
 
 Task<void> Restorer::restore_everything() {
   const auto request = request_for("the gateway (it is ending)");
-  co_await restore_speeds(AxisSet::all(), request.caller);
-  pending_.forget_speeds(AxisSet::all());
+  co_await restore_speeds(kAllAxes, request.caller);
+  pending_.forget_speeds(kAllAxes);
   (void)co_await restore_trigger(request.caller);
   const auto pending = pending_.take_leases();
   const auto leases = pending.leases();

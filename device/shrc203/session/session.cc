@@ -107,7 +107,7 @@ void Session::completion_deduced(int axis) {
 void Session::line_event(const Event& event, TimePoint) {
   if (std::holds_alternative<IllegalTransition>(event)) {
     // The stop stays open when the line is disconnected, and is sent first on the next connection.
-    stops_.stop(AxisSet::all(), {.who = kGateway});
+    stops_.stop(kAllAxes, {.who = kGateway});
   }
   const auto* notice = std::get_if<ProgramNotice>(&event);
   if (!notice || !guarded(Guard::notices_bounded)) return store_.emit(event);

@@ -76,7 +76,7 @@ bool SettingsReader::take_of_axes(const Answers& answers, AxisSet controllable) 
     const auto per_pulse = parse_decimal(scales.at(axis));
     const auto speed = parse_speed_setting(speeds.at(axis));
     if (!per_pulse || per_pulse->digits == 0 || !speed) return false;
-    const bool rotary = store_.profile().axes[static_cast<std::size_t>(axis - 1)].rotary();
+    const bool rotary = store_.profile().axis(axis).rotary();
     store_.note_scale(axis, Scale{*per_pulse, rotary});
     store_.note_speeds({{axis, *speed}});
     store_.note_origin_speeds(axis, origins.contains(axis) ? parse_speed_setting(origins.at(axis)) : std::nullopt);

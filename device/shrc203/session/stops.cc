@@ -12,14 +12,14 @@
 namespace axisgate::shrc203 {
 
 void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done) {
-  const AxisSet known = store_.controllable().empty() ? AxisSet::all() : store_.controllable();
+  const AxisSet known = store_.controllable().empty() ? kAllAxes : store_.controllable();
   const AxisSet possible = axes & known;
   const AxisSet named = axes.empty() ? known : possible.empty() ? axes : possible;
   const bool emergency = kind == StopKind::emergency;
   const bool moved = motions_.anything_moves() || !motions_.live().empty() || store_.state().moving_unknown;
   store_.emit(StopRequested{named, emergency, context.who, moved});
   if (emergency) open_.latch(context.who);
-  withdraw_motions(emergency ? AxisSet::all() : named, context);
+  withdraw_motions(emergency ? kAllAxes : named, context);
   StopJobPtr job = guarded(Guard::stops_join) ? open_.including(named, kind) : nullptr;
   if (!job) {
     job = begin(named, kind, context);

@@ -63,7 +63,7 @@ void WindDown::stop(Whom whom, Report report) {
     const bool runs = !live->life.unstarted() || line_.starting() == id;
     if (live->life.has_turn() && (whom == Whom::everybody || !runs)) axes = axes | live->motion.axes;
   }
-  if (whom == Whom::everybody && store_.state().moving_unknown) axes = AxisSet::all();
+  if (whom == Whom::everybody && store_.state().moving_unknown) axes = kAllAxes;
   if (axes.empty()) return;
   const RequestContext context{"the gateway (it is ending)", "", tasks_.now() + StageController::kStopLimit};
   stops_.stop(axes, StopKind::stop, context, [report](const StopReport& stopped) {

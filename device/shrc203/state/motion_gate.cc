@@ -13,7 +13,7 @@ namespace axisgate::shrc203 {
 
 OneShot<Result<void>> MotionGate::enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after) {
   OneShot<Result<void>> answer(tasks_.executor());
-  const AxisSet wanted = busy_scope_ == Scope::controller ? AxisSet::all() : axes;
+  const AxisSet wanted = busy_scope_ == Scope::controller ? kAllAxes : axes;
   const auto queued = queue_.push(Lane::motion, caller, Entry{id, wanted, caller, not_after, tasks_.now(), answer},
                                   LaneQueue<Entry>::kShareMax);
   if (!queued) {

@@ -69,7 +69,7 @@ LiveMotionPtr Motions::create(MotionKind kind, AxisSet axes, RequestContext cont
 Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   const bool alone =
       prebuffer && guarded(Guard::path_owns_prebuffers) && store_.profile().prebuffer_scope == Scope::controller;
-  auto entry = gate_.enter(live->motion.id, alone ? AxisSet::all() : live->uses, live->context.takes_turns_as(),
+  auto entry = gate_.enter(live->motion.id, alone ? kAllAxes : live->uses, live->context.takes_turns_as(),
                            live->context.not_after);
   const auto entered = co_await entry;
   if (!entered) co_return entered;
@@ -314,7 +314,7 @@ bool Motions::any_chain() const {
 
 Positions places_of(const LiveMotion& live, const State& state) {
   Positions places = positions_of(state);
-  for (const int other : (AxisSet::all() - live.motion.axes).list()) {
+  for (const int other : (kAllAxes - live.motion.axes).list()) {
     places[static_cast<std::size_t>(other - 1)].reset();
   }
   return places;

@@ -181,7 +181,7 @@ AxisSet PendingRestores::stationary_axes() const {
   AxisSet axes;
   for (const PendingRestore& one : list_) {
     if (one.axis != 0) axes.add(one.axis);
-    if (one.setting == RestoredSetting::trigger) axes = AxisSet::all();
+    if (one.setting == RestoredSetting::trigger) axes = kAllAxes;
   }
   return axes;
 }

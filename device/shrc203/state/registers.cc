@@ -24,7 +24,7 @@ bool is_shared(Register reg) {
 // Returns the index of an axis among a reply's fields, which are of all three axes or of the controllable ones only.
 std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet controllable) {
   std::size_t place = 0;
-  const auto named = reply.fields.size() == kAxisCount ? AxisSet::all() : controllable;
+  const auto named = reply.fields.size() == kAxisCount ? kAllAxes : controllable;
   if (!named.has(axis) || reply.fields.size() != static_cast<std::size_t>(named.count())) return {};
   for (const int other : named.list()) {
     if (other == axis) return place;
@@ -36,10 +36,10 @@ std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet contro
 // Returns the axes named in the reply to ?:K, ?:KP (first field), ?:E or ?:EP (second field) (manual 22) to 25)).
 AxisSet interpolation_axes(const Reply& reply, Register reg) {
   const std::size_t place = reg == Register::e || reg == Register::ep ? 1 : 0;
-  if (reply.fields.size() <= place || reply.fields[place].size() != 1) return AxisSet::all();
+  if (reply.fields.size() <= place || reply.fields[place].size() != 1) return kAllAxes;
   // A helix also moves axis 3 (manual 74)).
-  if (place == 1 && reply.fields[0] >= "3") return AxisSet::all();
-  return from_command_letter(reply.fields[place][0], AxisSet::all()).value_or(AxisSet::all());
+  if (place == 1 && reply.fields[0] >= "3") return kAllAxes;
+  return from_command_letter(reply.fields[place][0], kAllAxes).value_or(kAllAxes);
 }
 
 }  // namespace

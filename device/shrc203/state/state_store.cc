@@ -91,7 +91,7 @@ void StateStore::note_excitation(const std::map<int, std::string>& fields) {
 }
 
 void StateStore::note_controllable(AxisSet axes) {
-  for (const int number : AxisSet::all().list()) state_.axis(number).controllable = axes.has(number);
+  for (const int number : kAllAxes.list()) state_.axis(number).controllable = axes.has(number);
 }
 
 std::uint64_t StateStore::begin_epoch() {
@@ -118,7 +118,7 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
   if (!readings) return std::nullopt;
   Read read;
   Conditions::ByAxis shown;
-  for (const int number : AxisSet::all().list()) {
+  for (const int number : kAllAxes.list()) {
     const auto& reading = (*readings)[static_cast<std::size_t>(number - 1)];
     auto& axis = state_.axis(number);
     if (!reading.valid) continue;
@@ -136,10 +136,10 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
 }
 
 void StateStore::note_foreign_motion(AxisSet busy, AxisSet ours) {
-  const AxisSet expected = state_.moving_unknown ? AxisSet::all() : ours | left_moving_;
+  const AxisSet expected = state_.moving_unknown ? kAllAxes : ours | left_moving_;
   const AxisSet unasked = guarded(Guard::foreign_motion_reported) ? busy - expected : AxisSet();
   AxisSet reported;
-  for (const int number : AxisSet::all().list()) {
+  for (const int number : kAllAxes.list()) {
     bool& foreign = state_.axis(number).foreign_motion;
     const bool now = unasked.has(number) && (foreign || moved_unasked_.has(number));
     if (now && !foreign) reported.add(number);

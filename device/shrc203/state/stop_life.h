@@ -35,7 +35,7 @@ struct StopJob {
     StageController::OnStopped done;  // empty once answered
   };
 
-  AxisSet excluded() const { return stop.kind == StopKind::emergency ? AxisSet::all() : stop.axes; }
+  AxisSet excluded() const { return stop.kind == StopKind::emergency ? kAllAxes : stop.axes; }
   bool open() const { return is_open(stop.state); }
 
   Stop stop;               // its state is changed by OpenStops only

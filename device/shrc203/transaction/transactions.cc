@@ -81,7 +81,7 @@ Task<void> Transactions::run(Transaction transaction) {
 void Transactions::stop(const Command& command, const ExecuteRequest& request, OnExecute event) {
   const bool emergency = command.row->meaning == Meaning::emergency_stop;
   const AxisSet named = command.axes(store_.controllable());
-  const AxisSet axes = emergency ? AxisSet::all() : named;
+  const AxisSet axes = emergency ? kAllAxes : named;
   motions_.stop_requested(request.context, axes);
   stops_.stop(named, emergency ? StopKind::emergency : StopKind::stop, request.context,
               [event = std::move(event), line = command.line](const StopReport& report) {

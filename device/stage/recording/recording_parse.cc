@@ -77,7 +77,7 @@ class Cursor {
     AxisSet set;
     if (take(kNoAxes)) return set;
     do {
-      const int axis = number(1, kAxisCount);
+      const int axis = number(1, kAxesMax);
       if (good()) set.add(axis);
     } while (take(","));
     return set;
@@ -126,7 +126,7 @@ RecordedItem parse_item(Cursor& line, Duration after) {
       }
       break;
     case RecordedItem::Kind::completion:
-      item.text = std::to_string(line.number(1, kAxisCount));
+      item.text = std::to_string(line.number(1, kAxesMax));
       break;
     default:
       item.text = line.quoted();

@@ -29,8 +29,9 @@ Result<void> check(const Filter& filter, int page_size) {
   if (page_size < 1 || page_size > History::kPageMax) {
     return fail(Reason::invalid_request, "page_size is not within 1 to 1000", "leave it 0 for 100");
   }
-  if (filter.axis < 0 || filter.axis > stage::kAxisCount) {
-    return fail(Reason::invalid_request, "axis is not within 1 to 3", "leave it 0 for all");
+  if (filter.axis < 0 || filter.axis > stage::kAxesMax) {
+    return fail(Reason::invalid_request, fmt::format("axis is not within 1 to {}", stage::kAxesMax),
+                "leave it 0 for all");
   }
   return {};
 }

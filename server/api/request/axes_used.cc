@@ -9,7 +9,7 @@ template <class Items>
 AxisSet axes_of(const Items& items) {
   AxisSet axes;
   for (const auto& item : items) {
-    if (item.axis >= 1 && item.axis <= stage::kAxisCount) axes.add(item.axis);
+    if (item.axis >= 1 && item.axis <= stage::kAxesMax) axes.add(item.axis);
   }
   return axes;
 }
@@ -25,7 +25,8 @@ AxisSet axes_used(const stage::HomeRequest& home, const stage::State& state) {
 // There is one trigger for all axes.
 AxisSet axes_used(const stage::ScanRequest&, const stage::State& state) { return state.controllable(); }
 
-AxisSet axes_used(const stage::GoToPositionRequest&, const stage::State&) { return AxisSet::all(); }
+// A saved position has a coordinate of every axis.
+AxisSet axes_used(const stage::GoToPositionRequest&, const stage::State& state) { return state.controllable(); }
 
 AxisSet axes_used(const stage::JogRequest& jog, const stage::State&) { return axes_of(jog.axes); }
 

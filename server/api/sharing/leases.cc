@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/api/request/names.h"
+#include "server/api/stage/targets.h"
 
 namespace axisgate::api {
 namespace {
@@ -47,7 +48,10 @@ Result<void> fill_times(const LeaseWish& wish, LeaseTerms& terms) {
 // An unknown device is refused later, by its name.
 Result<use::Scope> scope_of(const LeaseWish& wish, const Result<server::Device*>& device) {
   if (wish.axes.empty()) return device ? (*device)->whole() : use::Scope();
-  if (!device || !(*device)->whole().is_whole_device()) return use::Scope(wish.axes);
+  if (!device) return use::Scope(wish.axes);
+  if (!(*device)->whole().is_whole_device()) {
+    return check_axes(wish.axes, **device).map([&wish] { return use::Scope(wish.axes); });
+  }
   return fail(Reason::invalid_request, fmt::format("{} has no axes that could be leased one by one", (*device)->name()),
               "name no axes: the lease is then over the whole device");
 }

@@ -18,7 +18,7 @@
 namespace axisgate::api {
 
 struct JogAxis {
-  int axis = 0;                     // 1 to 3
+  int axis = 0;                     // from 1
   std::optional<int> direction{};   // 1 or -1; used by start() only
   std::optional<Quantity> speed{};  // per second; nullopt: the axis's own speed
 };

@@ -116,6 +116,12 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
     return answer(fail(Reason::invalid_request, "the axes to be stopped are given without their device",
                        "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
+  for (const Device* one : *devices) {
+    const bool has_axes = !one->whole().is_whole_device();
+    if (const auto good = has_axes ? check_axes(*axes, *one) : Result<void>(); !good) {
+      return answer(tl::unexpected(good.error()));
+    }
+  }
   const use::RequestContext context = admission_.context_of_stop(call);
   stop_each(*devices, context, std::move(answer),
             [axes = *axes, context](StageController& controller, TimePoint now, StageController::OnStopped done) {

@@ -41,8 +41,9 @@ Result<stage::AxisMove> completed_target(const AxisTarget& target, const stage::
 }  // namespace
 
 Result<int> checked_axis(int number) {
-  if (number >= 1 && number <= stage::kAxisCount) return number;
-  return fail(Reason::unknown_axis, fmt::format("there is no axis {}", number), "axes are 1, 2 and 3");
+  if (number >= 1 && number <= stage::kAxesMax) return number;
+  return fail(Reason::unknown_axis,
+              fmt::format("there is no axis {}: a stage has at most {}", number, stage::kAxesMax));
 }
 
 Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers) {
@@ -54,6 +55,13 @@ Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers) {
     axes.add(*axis);
   }
   return axes;
+}
+
+Result<void> check_axes(stage::AxisSet named, const server::Device& device) {
+  if (device.whole().contains(named)) return {};
+  const auto there = stage::AxisSet::in(device.whole());
+  return fail(Reason::unknown_axis, fmt::format("{} has no {}", device.name(), to_string(named - there)),
+              fmt::format("it has {}", to_string(there)));
 }
 
 Problem on_axis(int axis, Problem problem) {

@@ -9,6 +9,7 @@
 #include "device/core/quantity.h"
 #include "device/stage/requests.h"
 #include "device/stage/state.h"
+#include "server/devices/device.h"
 
 namespace axisgate::api {
 
@@ -19,7 +20,7 @@ struct Speeds {
 };
 
 struct AxisTarget {
-  int axis = 0;       // 1 to 3
+  int axis = 0;       // from 1
   Quantity distance;  // a position, or a displacement if the move is relative
   std::optional<Speeds> speeds{};
   std::optional<Quantity> approach{};
@@ -30,8 +31,10 @@ struct Move {
   bool relative = false;
 };
 
-// Checks for 1 to 3. Fails with unknown_axis.
+// Checks for 1 to kAxesMax. Fails with unknown_axis.
 Result<int> checked_axis(int number);
+// Fails with unknown_axis if `device`, a stage, has less axes than named.
+Result<void> check_axes(stage::AxisSet named, const server::Device& device);
 // Checks each axis like checked_axis(). Fails with invalid_request if an axis is named twice. No axes stay no axes.
 Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers);
 

@@ -22,7 +22,7 @@ class MetricsTest : public ::testing::Test {
   std::string page() const { return prometheus::TextSerializer().Serialize(metrics_.registry()->Collect()); }
 
   Metrics metrics_;
-  StageMetrics device_{*metrics_.registry(), "stage"};
+  StageMetrics device_{*metrics_.registry(), "stage", 3};
 };
 
 TEST_F(MetricsTest, ExchangesAreCountedByCommandAndOutcomeWithTheirTime) {
@@ -82,7 +82,7 @@ TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) 
   device_.on_event(stage::PathProgress{1, stage::PathProgress::Step::underrun, 2, "OK"});
   device_.on_event(stage::BarrierEntered{"no reply"});
   device_.on_event(stage::UnexpectedLine{"\x01"});
-  device_.on_event(stage::StopRequested{stage::AxisSet::all(), true, "unix"});
+  device_.on_event(stage::StopRequested{stage::AxisSet::first(3), true, "unix"});
   const std::string text = page();
   EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"3\",device=\"stage\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"1\",device=\"stage\"} 0\n"));
@@ -94,7 +94,7 @@ TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) 
 }
 
 TEST_F(MetricsTest, ConditionsCountAsTheyBegin) {
-  stage::ConditionChanged change{.condition = stage::Condition::emergency_stop, .axes = stage::AxisSet::all()};
+  stage::ConditionChanged change{.condition = stage::Condition::emergency_stop, .axes = stage::AxisSet::first(3)};
   EXPECT_THAT(page(), HasSubstr("axisgate_conditions_total{condition=\"emergency_stop\",device=\"stage\"} 0\n"));
   device_.on_event(change);
   change.begun = false;

@@ -139,13 +139,13 @@ TEST(Recording, NamesTheLineOfAMistake) {
   EXPECT_THAT(mistake_with("9600", "96oo"), StartsWith("line 5: "));
   EXPECT_THAT(mistake_with("# baud:", "# buad:"), HasSubstr("the header lacks '# baud: ...'"));
   EXPECT_THAT(mistake_with("# reply-limit: 0.750000", "# baud: 9600"), StartsWith("line 6: 'baud' is given twice"));
-  EXPECT_THAT(mistake_with("up 1,2,3", "up 1,2,4"), StartsWith("line 13: a number from 1 to 3 is due at '4'"));
+  EXPECT_THAT(mistake_with("up 1,2,3", "up 1,2,9"), StartsWith("line 13: a number from 1 to 8 is due at '9'"));
   EXPECT_THAT(mistake_with("link up", "link upp"), StartsWith("line 13: "));
   EXPECT_THAT(mistake_with("barrier passed", "barrier over"), StartsWith("line 12: "));
   EXPECT_THAT(mistake_with("motion", "motoin"), StartsWith("line 15: 'motoin' is neither a lane nor"));
   EXPECT_THAT(mistake_with("= ok ", "= okay "), StartsWith("line 15: 'okay' is no outcome"));
   EXPECT_THAT(mistake_with("+0.004212 <", "+0.4212 <"), HasSubstr("six decimals"));
-  EXPECT_THAT(mistake_with("completion 1", "completion 4"), StartsWith("line 15: "));
+  EXPECT_THAT(mistake_with("completion 1", "completion 9"), StartsWith("line 15: "));
   EXPECT_THAT(mistake_with("> \"G:A\\r\\n\"", "> \"G:A\\r\\n"), StartsWith("line 15: "));
   EXPECT_THAT(mistake_with("> \"G:A\\r\\n\" +0.004212 ", ""), HasSubstr("begins with what was written"));
   EXPECT_THAT(mistake_with("\\x00", "\\x0"), StartsWith("line 16: a text between double quotes is due"));

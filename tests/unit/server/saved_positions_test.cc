@@ -176,7 +176,7 @@ TEST_F(SavedPositionsTest, ALineThatIsNoneIsNamed) {
        {std::string("stage b place 2 1:100,2:0 1800000000\n"), std::string("stage b place 21 1:1 18 2106001001 anna\n"),
         std::string("stage b plaice 2 1:1 18 2106001001 anna\n"),
         std::string("stage b place 2 1:1,1:2 18 2106001001 anna\n"),
-        std::string("stage b place 2 4:1 18 2106001001 anna\n"),
+        std::string("stage b place 2 9:1 18 2106001001 anna\n"),
         std::string("stage b place 2 1:x 18 2106001001 anna\n"), std::string("stage b place 2 1 18 2106001001 anna\n"),
         std::string("stage b.c place 2 1:1 18 2106001001 anna\n"),
         std::string("stage b place two 1:1 18 2106001001 anna\n")}) {

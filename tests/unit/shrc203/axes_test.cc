@@ -22,7 +22,7 @@ TEST(AxisSet, IsASet) {
   EXPECT_THAT(AxisSet().list(), IsEmpty());
   EXPECT_TRUE(AxisSet().empty());
   EXPECT_THAT(k13.list(), ElementsAre(1, 3));
-  EXPECT_EQ(AxisSet::all(), k123);
+  EXPECT_EQ(kAllAxes, k123);
   EXPECT_EQ(k123 - k2, k13);
   EXPECT_EQ(k12 & k23, k2);
   EXPECT_EQ(k23.lowest(), 2);

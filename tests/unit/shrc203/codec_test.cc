@@ -95,11 +95,11 @@ TEST(Codec, RowsThatLookAlikeAreToldApart) {
 
 TEST(Codec, AxesOfALine) {
   const AxisSet two = AxisSet::of(1) | AxisSet::of(2);
-  EXPECT_EQ(parse_command("G:A")->axes(AxisSet::all()), two);
+  EXPECT_EQ(parse_command("G:A")->axes(kAllAxes), two);
   EXPECT_EQ(parse_command("G:W")->axes(two), two);
   EXPECT_EQ(parse_command("G:")->axes(two), two);
   EXPECT_EQ(parse_command("G")->axes(two), two);
-  EXPECT_EQ(parse_command("C:30")->axes(AxisSet::all()), AxisSet::of(3));
+  EXPECT_EQ(parse_command("C:30")->axes(kAllAxes), AxisSet::of(3));
 }
 
 TEST(Codec, OutOfRange) {
@@ -152,7 +152,7 @@ TEST(Codec, CharactersThatAreNeverSent) {
 TEST(Codec, CommandsOfOurOwnMaking) {
   const AxisSet two = AxisSet::of(1) | AxisSet::of(3);
   EXPECT_EQ(make_command("G:", two).line, "G:B");
-  EXPECT_EQ(make_command("GC:", AxisSet::all()).line, "GC:D");
+  EXPECT_EQ(make_command("GC:", kAllAxes).line, "GC:D");
   EXPECT_EQ(make_command("MP:", Arguments().axes(two).pulses(-5).pulses(70).speeds(1, 2, 3).speeds(4, 5, 6)).line,
             "MP:B-P5+P70,S1F2R3 S4F5R6");
   EXPECT_EQ(make_command("KP:", Arguments().axes(two).pulses(0).pulses(-999999999).speeds(10, 20, 30)).line,
@@ -167,7 +167,7 @@ TEST(Codec, ArgumentsThatDoNotFit) {
   };
   const CommandRow& move = command_row("M:");
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1))), Reason::invalid_request);
-  EXPECT_EQ(reason(move, Arguments().axes(AxisSet::all()).pulses(1)), Reason::invalid_request);
+  EXPECT_EQ(reason(move, Arguments().axes(kAllAxes).pulses(1)), Reason::invalid_request);
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1).pulses(2)), Reason::invalid_request);
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1'000'000'000)), Reason::out_of_range);
   EXPECT_EQ(reason(command_row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
@@ -196,9 +196,9 @@ TEST(Codec, AnglesHaveTheirOwnRange) {
 
 // A helix also moves axis 3 (manual 74)), and the parameter a of T:T is a time (manual 97)).
 TEST(Codec, AxesThatALetterDoesNotName) {
-  EXPECT_EQ(parse_command("E:3A0N2+P1-P2+P3")->axes(AxisSet::all()), AxisSet::all());
-  EXPECT_EQ(parse_command("E:0A0+P1-P2")->axes(AxisSet::all()).count(), 2);
-  EXPECT_EQ(parse_command("T:T100")->axes(AxisSet::all()), AxisSet::all());
+  EXPECT_EQ(parse_command("E:3A0N2+P1-P2+P3")->axes(kAllAxes), kAllAxes);
+  EXPECT_EQ(parse_command("E:0A0+P1-P2")->axes(kAllAxes).count(), 2);
+  EXPECT_EQ(parse_command("T:T100")->axes(kAllAxes), kAllAxes);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ TEST(Completions, AfterAConnectEveryAxisMayComplete) {
   Completions completions;
   EXPECT_EQ(completions.possible(), AxisSet());
   completions.connected();
-  EXPECT_EQ(completions.possible(), AxisSet::all());
-  EXPECT_EQ(completions.outstanding(), AxisSet::all());
+  EXPECT_EQ(completions.possible(), kAllAxes);
+  EXPECT_EQ(completions.outstanding(), kAllAxes);
 }
 
 TEST(Completions, PossibleFromTheStartOn) {

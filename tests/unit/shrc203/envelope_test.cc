@@ -19,7 +19,8 @@ Quantity micrometers(std::int64_t digits) { return {{digits, 0}, Unit::micromete
 class EnvelopeTest : public testing::Test {
  protected:
   EnvelopeTest() {
-    for (auto& axis : state.axes) {
+    for (const int number : kAllAxes.list()) {
+      auto& axis = state.axis(number);
       axis.controllable = true;
       axis.scale = Scale{{10, 0}, false};
     }

@@ -62,7 +62,7 @@ TEST_F(LineCompletionsTest, TheQuestionThatHasWaitedLongestForThemIsKnown) {
   EXPECT_EQ(held->since, asked);
   receive("1\r\n");
   pass(kReadyOutdatedMax);
-  line.ready(AxisSet::all(), now);
+  line.ready(kAllAxes, now);
   pass(kCompletionAfterReadyMax);
   EXPECT_TRUE(line.held_question()) << "until nothing can come any more";
   script({{"?:CMD\r\n", "?:V\r\n"}, {"?:AXIS\r\n", "6\r\n"}});

@@ -193,14 +193,14 @@ class LineFixture : public testing::Test {
     script({{"*IDN?\r\n", std::string(kIdentity) + "\r\n"}});
     pass(kSilence);
   }
-  void open(AxisSet controllable = AxisSet::all()) {
+  void open(AxisSet controllable = kAllAxes) {
     line.open(controllable, now);
     executor.run();
   }
   // Connects, with all axes confirmed stationary for so long that none can complete any more.
-  void open_and_rest(AxisSet controllable = AxisSet::all()) {
+  void open_and_rest(AxisSet controllable = kAllAxes) {
     connect();
-    line.ready(AxisSet::all(), now);
+    line.ready(kAllAxes, now);
     pass(kCompletionAfterReadyMax);
     line.completions().answered(now);
     open(controllable);

@@ -79,7 +79,7 @@ TEST_F(MotionGateTest, AMotionHasItsAxesToItself) {
   enter(each, 2, kUpper);
   enter(whole, 1, kLower);
   EXPECT_EQ(each.axes_of(1), kLower);
-  EXPECT_EQ(whole.axes_of(1), AxisSet::all());
+  EXPECT_EQ(whole.axes_of(1), kAllAxes);
   EXPECT_EQ(whole.axes_of(2), AxisSet());
 }
 

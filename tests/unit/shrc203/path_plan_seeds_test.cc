@@ -154,7 +154,8 @@ TEST_P(PlannedSegments, AreWhatTheirLinesSay) {
   for (int i = 0; i < kCases / 8; ++i) {
     Profile profile;
     State state;
-    for (auto& axis : state.axes) {
+    for (const int number : kAllAxes.list()) {
+      auto& axis = state.axis(number);
       axis.controllable = true;
       axis.scale = Scale{{10, 0}, false};
       axis.position_pulses = random.between(-3000, 3000);

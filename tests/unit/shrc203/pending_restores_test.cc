@@ -97,7 +97,7 @@ TEST_F(PendingRestoresTest, SpeedsOfAMotionByD) {
 }
 
 TEST_F(PendingRestoresTest, SpeedsOfTheOriginReturnByB) {
-  pending.remember(kAnna, {{}, AxisSet::all(), {}, {}}, state);
+  pending.remember(kAnna, {{}, kAllAxes, {}, {}}, state);
   const auto what = pending.of_lease(kAnna);
   EXPECT_EQ(line(what, Setting::origin_speeds), kNothing);
   state.axis(2).origin_speeds = kOther;
@@ -233,7 +233,7 @@ TEST_F(PendingRestoresTest, ATriggerThatAScanHasLeftIsNotTheLeases) {
 TEST_F(PendingRestoresTest, WhatFailedIsKeptAndTheOldestStays) {
   pending.keep(PendingRestores::of_motion({{1, kFirst}}));
   pending.keep(PendingRestores::of_motion({{1, kOther}, {2, kOther}}));
-  const auto what = pending.take(AxisSet::all());
+  const auto what = pending.take(kAllAxes);
   EXPECT_THAT(what.speeds(), ElementsAre(std::pair(1, kFirst), std::pair(2, kOther)));
   pending.remember_scan(kTimer, kByPulses);
   pending.remember_scan(kByPulses, kByScale);
@@ -260,7 +260,7 @@ TEST_F(PendingRestoresTest, WhatIsForgottenIsTheMotions) {
   pending.forget_speeds(kOne);
   pending.forget_scan();
   EXPECT_FALSE(pending.has_scan());
-  EXPECT_EQ(pending.take(AxisSet::all()).sped(), kTwo);
+  EXPECT_EQ(pending.take(kAllAxes).sped(), kTwo);
   for (const Setting setting : {Setting::speeds, Setting::origin_speeds, Setting::outputs, Setting::trigger}) {
     set(state, 1, kOther);
     state.axis(1).origin_speeds = kOther;
@@ -299,9 +299,8 @@ TEST_F(PendingRestoresTest, TheAxesThatMustBeStationary) {
     Change change;
     AxisSet axes;
   } kCases[] = {
-      {{kOne, {}, {}, {}}, kOne}, {{kOne, kTwo, {}, {}}, kOne | kTwo},
-      {{{}, {}, 32, {}}, {}},     {{{}, {}, 32, kTimer}, AxisSet::all()},
-      {{kOne, {}, 32, {}}, kOne},
+      {{kOne, {}, {}, {}}, kOne},       {{kOne, kTwo, {}, {}}, kOne | kTwo}, {{{}, {}, 32, {}}, {}},
+      {{{}, {}, 32, kTimer}, kAllAxes}, {{kOne, {}, 32, {}}, kOne},
   };
   for (const auto& one : kCases) {
     PendingRestores list;

@@ -17,7 +17,8 @@ Quantity millimeters(std::int64_t digits, int decimals = 0) { return {{digits, d
 class PlanTest : public testing::Test {
  protected:
   PlanTest() {
-    for (auto& axis : state.axes) {
+    for (const int number : kAllAxes.list()) {
+      auto& axis = state.axis(number);
       axis.controllable = true;
       axis.scale = Scale{{10, 0}, false};
       axis.position_pulses = 0;

@@ -12,7 +12,7 @@
 namespace axisgate::shrc203::registers_test {
 namespace {
 
-const AxisSet kAll = AxisSet::all();
+const AxisSet kAll = kAllAxes;
 
 std::string_view question_of(Register reg) { return commands::text(commands::question_of(reg)); }
 

@@ -123,7 +123,7 @@ TEST(Reply, CutOrDamagedAnswersAreNone) {
 }
 
 TEST(Reply, Positions) {
-  const auto readings = parse_positions(*parse("Q:S", "P+100,P-2000,P3000,80,1,4,R,B,B"), AxisSet::all());
+  const auto readings = parse_positions(*parse("Q:S", "P+100,P-2000,P3000,80,1,4,R,B,B"), kAllAxes);
   ASSERT_TRUE(readings);
   EXPECT_EQ((*readings)[0].pulses, 100);
   EXPECT_EQ((*readings)[1].pulses, -2000);
@@ -147,7 +147,7 @@ TEST(Reply, PositionsOfInvalidAxes) {
 }
 
 TEST(Reply, PositionsInAnotherUnitAreNotTakenForPulses) {
-  EXPECT_FALSE(parse_positions(*parse("Q:S", "U+1,U+2,U+3,1,1,1,R,R,R"), AxisSet::all()));
+  EXPECT_FALSE(parse_positions(*parse("Q:S", "U+1,U+2,U+3,1,1,1,R,R,R"), kAllAxes));
 }
 
 TEST(Reply, Identity) {

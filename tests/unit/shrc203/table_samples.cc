@@ -90,7 +90,7 @@ void SampleGenerator::add(std::string_view letter) {
   // W means all axes of the controller, of which there are one to three; all repeated parts of a line agree on the
   // number.
   if (letter == "a" && parameter->kind == Parameter::Kind::choice) {
-    const auto axes = from_command_letter(value.front(), AxisSet::all());
+    const auto axes = from_command_letter(value.front(), kAllAxes);
     repeats_ = value == "W" ? 1 + below(3) : static_cast<std::size_t>(axes.value_or(AxisSet::of(1)).count());
   }
   sample_.places.push_back(sample_.line.size());
