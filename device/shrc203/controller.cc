@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/motion/approach.h"
 #include "device/shrc203/motion/disarming.h"
 #include "device/shrc203/motion/entry.h"

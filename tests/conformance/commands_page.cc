@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/command/command_table.h"
+#include "device/shot/command/command_row.h"
 
 namespace axisgate::shrc203::conformance {
 namespace {

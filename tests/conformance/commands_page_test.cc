@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "device/shrc203/command/command_table.h"
+#include "device/shot/command/command_row.h"
 #include "tests/paths/paths.h"
 
 namespace axisgate::shrc203::conformance {

@@ -6,7 +6,7 @@
 #include <ostream>
 #include <set>
 
-#include "device/shrc203/command/command_table.h"
+#include "device/shot/command/command_row.h"
 #include "tests/conformance/verification.h"
 
 namespace axisgate::shrc203::conformance {

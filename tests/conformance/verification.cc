@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/reply.h"
 #include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::shrc203::conformance {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/reply.h"
 #include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {

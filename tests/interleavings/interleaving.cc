@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/reply.h"
+#include "device/shot/line/completions.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/completions.h"
 #include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::simulation {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
+#include "device/shot/line/completions.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/completions.h"
 #include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {

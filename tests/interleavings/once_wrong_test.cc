@@ -1,8 +1,8 @@
 // Tests of orders of an answer and axis numbers in which a number was once not counted exactly once.
 #include <gtest/gtest.h>
 
+#include "device/shot/line/completions.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/completions.h"
 #include "tests/interleavings/fixture.h"
 
 namespace axisgate::simulation {

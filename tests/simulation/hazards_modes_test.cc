@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
 #include "server/access/leases.h"
 #include "tests/simulation/scenario.h"
 

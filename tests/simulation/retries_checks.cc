@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "device/shrc203/command/axes.h"
+#include "device/shot/command/axes.h"
 #include "server/api/request/mutations.h"
 #include "server/journal/answers.h"
 #include "tests/simulation/retries.h"

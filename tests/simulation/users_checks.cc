@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "device/shrc203/command/axes.h"
+#include "device/shot/command/axes.h"
 #include "tests/simulation/users.h"
 
 namespace axisgate::simulation {

@@ -252,7 +252,7 @@ class Occurrences(Tree):
                      "state_ = LinkState::down;", "link_ = LinkState::down;", "state_ = a ? LinkState::up : b;",
                      "state_ =\n    LinkState::down;"):
             self.assert_count("link_state_writes", text, 1)
-            self.assert_count("link_state_writes", f"{text}\n{text}", 2, "device/shrc203/line/a.cc")
+            self.assert_count("link_state_writes", f"{text}\n{text}", 2, "device/shot/line/a.cc")
             self.assert_count("link_state_writes", text, 1, "device/shrc203/a.h")
             for path in ("device/shrc203/simulator/a.cc", "server/a.cc"):
                 self.assert_count("link_state_writes", text, 0, path)

@@ -16,7 +16,7 @@ _MILL_SIMULATOR = "device/rml1/simulator/"
 # Of the gateway's side the simulated mill knows the figures of machines alone.
 _MILL_DATA = ("device/rml1/machine/profile.h", "device/rml1/machine/profile_files.h",
               "device/rml1/machine/known_machine.h", "device/rml1/language/dialect.h")
-_GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
+_GATEWAY_PARSERS = ("device/shot/command/command_row.h", "device/shot/command/command.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
 FLOORS = {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203::commands {

@@ -1,10 +1,9 @@
-#include "device/shrc203/command/command_table.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
 
-#include "device/shrc203/command/rows.h"
+#include "device/shot/command/command_row.h"
+#include "device/shot/command/row_forms.h"
 
 namespace axisgate::shrc203 {
 

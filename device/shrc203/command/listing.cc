@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "device/shrc203/command/command_table.h"
+#include "device/shot/command/command_row.h"
 
 namespace axisgate::shrc203 {
 namespace {

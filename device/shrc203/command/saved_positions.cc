@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "device/shrc203/command/command_table.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/command_row.h"
+#include "device/shot/command/reply.h"
 
 namespace axisgate::shrc203 {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/command/trigger.h"
 
 namespace axisgate::shrc203 {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/reply.h"
 
 namespace axisgate::shrc203 {
 namespace {

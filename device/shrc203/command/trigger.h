@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
 
 namespace axisgate::shrc203 {
 

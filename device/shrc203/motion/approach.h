@@ -3,7 +3,7 @@
 // Several axes stop in between: the manual does not say whether each would continue by itself (README: chain_step_on).
 #pragma once
 
-#include "device/shrc203/line/line_timing.h"
+#include "device/shot/line/line_timing.h"
 #include "device/shrc203/motion/entry.h"
 #include "device/shrc203/motion/paths.h"
 #include "device/shrc203/planning/path_plan.h"

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/session/dialogue.h"
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/session/reader.h"

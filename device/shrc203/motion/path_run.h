@@ -15,7 +15,7 @@
 
 #include "device/core/tasks.h"
 #include "device/core/violations.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/motion/prebuffer.h"
 #include "device/shrc203/motion/segment_halt.h"
 #include "device/shrc203/motion/standstill.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line_timing.h"
+#include "device/shot/line/line_timing.h"
 #include "device/shrc203/motion/disarming.h"
 #include "device/shrc203/motion/entry.h"
 #include "device/shrc203/motion/path_run.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/motion/ready_lag.h"
 #include "device/shrc203/motion/starter.h"
 #include "device/shrc203/motion/trigger_count.h"

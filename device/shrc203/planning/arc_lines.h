@@ -4,7 +4,7 @@
 #include <array>
 
 #include "device/core/problem.h"
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
 #include "device/stage/arc.h"
 #include "device/stage/envelope.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "device/core/problem.h"
-#include "device/shrc203/command/pattern.h"
+#include "device/shot/command/pattern.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/stage.h"
 #include "device/stage/arc.h"

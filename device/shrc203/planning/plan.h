@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/core/problem.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/stage.h"
 #include "device/stage/envelope.h"
 

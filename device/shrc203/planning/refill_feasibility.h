@@ -2,8 +2,8 @@
 // Double buffer), so the next segment must be set completely while each segment runs.
 #pragma once
 
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/line/line_timing.h"
+#include "device/shot/command/command.h"
+#include "device/shot/line/line_timing.h"
 #include "device/shrc203/planning/path_plan.h"
 
 namespace axisgate::shrc203 {

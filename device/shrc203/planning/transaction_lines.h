@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "device/core/problem.h"
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/stage/arc.h"
 #include "device/stage/envelope.h"

@@ -6,10 +6,10 @@
 #include <deque>
 #include <set>
 
+#include "device/shot/command/reply.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/command/builders.h"
-#include "device/shrc203/command/reply.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/line.h"
 #include "device/shrc203/recording/replay_moments.h"
 
 namespace axisgate::shrc203 {

@@ -1,7 +1,7 @@
 // Test for questions that were answered with data.
 #pragma once
 
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 
 namespace axisgate::shrc203 {
 

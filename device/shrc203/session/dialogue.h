@@ -4,8 +4,8 @@
 #include <string>
 
 #include "device/core/tasks.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/command/builders.h"
-#include "device/shrc203/line/line.h"
 #include "device/shrc203/state/live_motion.h"
 
 namespace axisgate::shrc203 {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "device/shrc203/command/axes.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/axes.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/session/stops.h"
 #include "device/shrc203/state/state_store.h"
 #include "device/stage/unfinished.h"

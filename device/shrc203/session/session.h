@@ -11,7 +11,7 @@
 
 #include "device/core/tasks.h"
 #include "device/core/violations.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/handshake.h"
 #include "device/shrc203/session/previous_run.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/session/dialogue.h"
 #include "device/shrc203/state/non_host.h"
 #include "device/shrc203/state/open_stops.h"

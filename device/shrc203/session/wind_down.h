@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/restorer.h"
 #include "device/shrc203/session/stops.h"

@@ -12,7 +12,7 @@
 #include "device/core/lane_queue.h"
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
-#include "device/shrc203/command/axes.h"
+#include "device/shot/command/axes.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"
 #include "device/shrc203/state/question_turn.h"

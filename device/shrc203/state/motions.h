@@ -11,7 +11,7 @@
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
 #include "device/core/violations.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/state/live_motion.h"
 #include "device/shrc203/state/motion_gate.h"
 #include "device/shrc203/state/registers.h"

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "device/shot/command/command.h"
 #include "device/shrc203/command/builders.h"
-#include "device/shrc203/command/codec.h"
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {

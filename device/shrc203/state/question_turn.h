@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "device/core/time.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 
 namespace axisgate::shrc203 {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 
-#include "device/shrc203/command/axes.h"
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/command_table.h"
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/axes.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/command_row.h"
+#include "device/shot/command/reply.h"
 
 namespace axisgate::shrc203 {
 

@@ -11,9 +11,9 @@
 
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
+#include "device/shot/command/reply.h"
+#include "device/shot/line/link.h"
 #include "device/shrc203/command/builders.h"
-#include "device/shrc203/command/reply.h"
-#include "device/shrc203/line/link.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "device/core/quantity.h"
+#include "device/shot/command/reply.h"
 #include "device/shrc203/command/builders.h"
-#include "device/shrc203/command/reply.h"
 
 namespace axisgate::shrc203 {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "device/shrc203/command/codec.h"
+#include "device/shot/command/command.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/stage.h"
 #include "device/shrc203/state/live_motion.h"

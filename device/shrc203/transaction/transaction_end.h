@@ -3,7 +3,7 @@
 #pragma once
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/motion/watch.h"
 #include "device/shrc203/session/non_host_visit.h"
 #include "device/shrc203/session/reader.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/shot/line/closed_answers.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/closed_answers.h"
 #include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::shrc203 {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/line.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/session/dialogue.h"
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/session/lease_settings.h"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "device/shrc203/command/command_table.h"
+#include "device/shot/command/command_row.h"
 
 namespace axisgate::shrc203::listing_test {
 namespace {

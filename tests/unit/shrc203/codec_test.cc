@@ -1,9 +1,9 @@
 // Lines as callers write them and as they are sent; the examples are from the manual.
-#include "device/shrc203/command/codec.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "device/shot/command/command.h"
 
 namespace axisgate::shrc203::codec_test {
 namespace {

@@ -1,7 +1,7 @@
 // Properties of the table's rows besides their lines, typed from the manual.
-#include "device/shrc203/command/command_table.h"
-
 #include <gtest/gtest.h>
+
+#include "device/shot/command/command_row.h"
 
 namespace axisgate::shrc203::command_table_test {
 

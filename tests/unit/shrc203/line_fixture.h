@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "device/core/task.h"
+#include "device/shot/line/line.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/line/line.h"
 
 namespace axisgate::shrc203 {
 

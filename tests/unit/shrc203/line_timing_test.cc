@@ -1,4 +1,4 @@
-#include "device/shrc203/line/line_timing.h"
+#include "device/shot/line/line_timing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Possible answers to each command, and their meaning; the examples are from the manual.
-#include "device/shrc203/command/reply.h"
+#include "device/shot/command/reply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shrc203/command/axes.h"
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/command_table.h"
-#include "device/shrc203/command/pattern.h"
+#include "device/shot/command/axes.h"
+#include "device/shot/command/command.h"
+#include "device/shot/command/command_row.h"
+#include "device/shot/command/pattern.h"
 #include "tests/unit/shrc203/table_samples.h"
 
 namespace axisgate::shrc203::table_properties_test {

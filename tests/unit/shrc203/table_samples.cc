@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "device/shrc203/command/axes.h"
+#include "device/shot/command/axes.h"
 
 namespace axisgate::shrc203 {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/command/command_table.h"
-#include "device/shrc203/command/pattern.h"
+#include "device/shot/command/command_row.h"
+#include "device/shot/command/pattern.h"
 
 namespace axisgate::shrc203 {
 
