@@ -18,7 +18,7 @@ namespace {
 using std::chrono::hours;
 using Known = RequestMemory::Known;
 
-constexpr TimePoint kMorning{hours(8)};
+constexpr TimePoint kBeginning{hours(8)};
 const RequestMemory::Key kKey{"unix anna", "align-17"};
 
 RememberedRequest move_by(std::string identity, std::string id, std::string digest = "1 mm") {
@@ -41,17 +41,17 @@ class RequestMemoryTest : public testing::Test {
  protected:
   // Returns true if the request is new and may act; otherwise false, with the reason if it was refused.
   std::pair<bool, Reason> begin(const RememberedRequest& request, std::string_view mark = "",
-                                TimePoint now = kMorning) {
+                                TimePoint now = kBeginning) {
     const auto begun = memory_.begin(request, mark, now, answers_.known());
     if (!begun) return {false, begun.error().reason};
     if (*begun && (*begun)->forgotten > 0) forgotten_ = (*begun)->forgotten;
     return {begun->has_value(), Reason::unspecified};
   }
-  bool is_new(const std::string& id, TimePoint now = kMorning) {
+  bool is_new(const std::string& id, TimePoint now = kBeginning) {
     return begin(move_by("unix anna", id), "", now).first;
   }
   // Runs a request from its arrival to its end.
-  void run(const std::string& id, std::uint64_t motion, TimePoint now = kMorning) {
+  void run(const std::string& id, std::uint64_t motion, TimePoint now = kBeginning) {
     const RequestMemory::Key key{"unix anna", id};
     ASSERT_TRUE(is_new(id, now));
     ASSERT_TRUE(memory_.made(key, motion, "queued"));
@@ -66,7 +66,7 @@ class RequestMemoryTest : public testing::Test {
 
 TEST_F(RequestMemoryTest, ARepeatIsAnsweredAndDoesNotAct) {
   run("align-17", 12);
-  EXPECT_FALSE(is_new("align-17", kMorning + hours(23)));
+  EXPECT_FALSE(is_new("align-17", kBeginning + hours(23)));
   ASSERT_EQ(answers_.all.size(), 1u);
   EXPECT_EQ(answers_.all[0]->motion, 12u);
   EXPECT_EQ(answers_.all[0]->answer, "ended");
@@ -109,7 +109,7 @@ TEST_F(RequestMemoryTest, WhatHasEndedIsNotFreeAgain) {
 
 TEST_F(RequestMemoryTest, AfterADayAnIdIsForgotten) {
   run("align-17", 12);
-  EXPECT_TRUE(is_new("align-17", kMorning + hours(25)));
+  EXPECT_TRUE(is_new("align-17", kBeginning + hours(25)));
   EXPECT_EQ(forgotten_, 1) << "and the file must forget it, too";
 }
 
@@ -122,18 +122,18 @@ TEST_F(RequestMemoryTest, OfTooManyTheOldestIsForgotten) {
 TEST_F(RequestMemoryTest, WhatHasNotEndedIsNotForgotten) {
   ASSERT_TRUE(is_new("align-1"));
   for (std::uint64_t i = 2; i <= 6; ++i) run("align-" + std::to_string(i), i);
-  EXPECT_FALSE(is_new("align-1", kMorning + hours(25)));
+  EXPECT_FALSE(is_new("align-1", kBeginning + hours(25)));
 }
 
 TEST_F(RequestMemoryTest, ARepeatThatMayBeForgottenIsRefused) {
   const std::string mark = memory_.mark();
   run("align-17", 12);
   EXPECT_TRUE(begin(move_by("unix anna", "align-18"), mark).first) << "nothing was forgotten yet";
-  ASSERT_TRUE(is_new("align-19", kMorning + hours(25)));
-  EXPECT_EQ(begin(move_by("unix anna", "align-17"), mark, kMorning + hours(25)).second, Reason::request_memory_lost);
+  ASSERT_TRUE(is_new("align-19", kBeginning + hours(25)));
+  EXPECT_EQ(begin(move_by("unix anna", "align-17"), mark, kBeginning + hours(25)).second, Reason::request_memory_lost);
   EXPECT_EQ(begin(move_by("unix anna", "align-17"), "other-7").second, Reason::request_memory_lost);
   EXPECT_EQ(begin(move_by("unix anna", "align-17"), "no mark").second, Reason::request_memory_lost);
-  EXPECT_TRUE(begin(move_by("unix anna", "align-20"), memory_.mark(), kMorning + hours(25)).first);
+  EXPECT_TRUE(begin(move_by("unix anna", "align-20"), memory_.mark(), kBeginning + hours(25)).first);
 }
 
 class KeptRequestsTest : public testing::Test {
@@ -152,15 +152,15 @@ TEST_F(KeptRequestsTest, AreKnownToTheNextRun) {
     const auto journal = *Journal::open(path_, "boot-1");
     RequestMemory memory({}, journal->epoch(), journal->boot_offset(), journal->take_requests());
     mark = memory.mark();
-    journal->append({{}, **memory.begin(move_by("unix anna", "align-17"), "", kMorning, {})});
+    journal->append({{}, **memory.begin(move_by("unix anna", "align-17"), "", kBeginning, {})});
     journal->append({{}, *memory.made(kKey, 12, "queued")});
     journal->append({{}, *memory.motion_ended(kKey, 12, "ended")});
-    journal->append({{}, **memory.begin(move_by("unix anna", "align-18"), "", kMorning, {})});
+    journal->append({{}, **memory.begin(move_by("unix anna", "align-18"), "", kBeginning, {})});
   }
   const auto journal = *Journal::open(path_, "boot-1");
   RequestMemory memory({}, journal->epoch(), journal->boot_offset(), journal->take_requests());
   Answers answers;
-  EXPECT_EQ(*memory.begin(move_by("unix anna", "align-17"), mark, kMorning, answers.known()), std::nullopt);
+  EXPECT_EQ(*memory.begin(move_by("unix anna", "align-17"), mark, kBeginning, answers.known()), std::nullopt);
   ASSERT_EQ(answers.all.size(), 1u);
   EXPECT_EQ(answers.all[0]->answer, "ended");
   ASSERT_EQ(memory.open().size(), 1u);
@@ -175,7 +175,7 @@ TEST_F(KeptRequestsTest, ANewFileIsANewMemory) {
   std::filesystem::remove(path_);
   const auto journal = *Journal::open(path_);
   RequestMemory memory({}, journal->epoch(), journal->boot_offset(), journal->take_requests());
-  const auto begun = memory.begin(move_by("unix anna", "align-17"), mark, kMorning, {});
+  const auto begun = memory.begin(move_by("unix anna", "align-17"), mark, kBeginning, {});
   ASSERT_FALSE(begun);
   EXPECT_EQ(begun.error().reason, Reason::request_memory_lost);
 }
@@ -185,11 +185,11 @@ TEST_F(KeptRequestsTest, TheTimeBetweenTwoBootsDoesNotCount) {
   {
     const auto store = Store::open(path_);
     Store open = *Store::open(path_);
-    ASSERT_EQ(*open.boot_offset("boot-1", kMorning), -kMorning.time_since_epoch());
+    ASSERT_EQ(*open.boot_offset("boot-1", kBeginning), -kBeginning.time_since_epoch());
     RememberedRequest request = move_by("unix anna", "align-17");
     request.lived = hours(5);
     ASSERT_TRUE(open.append(std::vector{Record{{}, {request, false, 0}}}));
-    EXPECT_EQ(*open.boot_offset("boot-1", kMorning + hours(9)), -kMorning.time_since_epoch()) << "the same boot";
+    EXPECT_EQ(*open.boot_offset("boot-1", kBeginning + hours(9)), -kBeginning.time_since_epoch()) << "the same boot";
   }
   EXPECT_EQ(*Store::open(path_)->boot_offset("boot-2", TimePoint(hours(1))), hours(4)) << "5 h lived, 1 h after boot";
 }
