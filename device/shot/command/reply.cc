@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "device/core/guard.h"
-#include "device/shrc203/command/trigger.h"
+#include "device/shot/command/trigger_reply.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -167,7 +167,7 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   if (spec == "line") return is_line_setting(line);
   if (spec == "arc") return is_arc_setting(line);
   if (spec == "step") return is_step(line);
-  if (spec == "trigger") return parse_trigger(line).has_value();
+  if (spec == "trigger") return parse_trigger(line, kAllAxes).has_value();
   return {};
 }
 

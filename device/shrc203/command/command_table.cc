@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "device/shot/command/command_row.h"
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203 {
 

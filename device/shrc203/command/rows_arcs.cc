@@ -1,5 +1,5 @@
 // Rows of the command table that set arcs and helices: manual 71) to 82). Points are relative to the present position.
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

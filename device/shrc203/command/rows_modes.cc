@@ -1,6 +1,6 @@
 // Rows of the command table that leave HOST or change the dialect, and the rows that work in the other modes: manual
 // 49), 50), 102) to 126).
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

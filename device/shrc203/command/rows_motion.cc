@@ -1,5 +1,5 @@
 // Rows of the command table that start, prepare or stop a motion: manual 47), 57) to 88).
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

@@ -1,6 +1,6 @@
 // Rows of the command table for saved positions: places (PIT:), which stay the same place when coordinates are set
 // again, and coordinates (PAV:) (manual 127) to 136)).
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

@@ -1,5 +1,5 @@
 // Rows of the command table that change nothing: manual 1) to 44), 95).
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

@@ -1,6 +1,6 @@
 // Rows of the command table that change a setting without motion: manual 45), 46), 48), 51) to 56), 63), 64), 89) to
 // 94), 96) to 101).
-#include "device/shot/command/row_forms.h"
+#include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "device/shot/command/command.h"
 #include "device/shot/command/reply.h"
+#include "device/shot/command/trigger_reply.h"
 #include "device/shrc203/command/trigger.h"
 
 namespace axisgate::shrc203 {
@@ -198,7 +199,7 @@ void read_setting(std::string_view question, std::string_view answer, AxisSet co
   if (question == "I:") settings.inputs = number_in(answer);
   if (question == "?:MODE") settings.mode = std::string(answer);
   if (question == "?:FMT") settings.format = std::string(answer);
-  if (question == "?:T") settings.trigger = parse_trigger(answer);
+  if (question == "?:T") settings.trigger = parse_trigger(answer, kAllAxes);
 }
 
 }  // namespace axisgate::shrc203

@@ -11,20 +11,6 @@ namespace {
 
 using Target = Trigger::Target;
 
-bool possible(const Trigger& trigger) {
-  switch (trigger.target) {
-    case Target::none:
-      return true;
-    case Target::timer:
-      return trigger.interval >= 1 && trigger.interval <= 10'000;
-    case Target::drive_pulses:
-    case Target::scale_plus:
-    case Target::scale_minus:
-      break;
-  }
-  return trigger.axis >= 1 && trigger.axis <= kAxisCount && trigger.interval >= 2 && trigger.interval <= 30'000;
-}
-
 std::pair<std::string_view, Arguments> written(const Trigger& trigger) {
   const std::string interval = std::to_string(trigger.interval), axis = std::to_string(trigger.axis);
   switch (trigger.target) {
@@ -43,30 +29,6 @@ std::pair<std::string_view, Arguments> written(const Trigger& trigger) {
 }
 
 }  // namespace
-
-std::optional<Trigger> parse_trigger(std::string_view answer) {
-  if (answer == "NS") return Trigger{};
-  std::vector<std::int64_t> numbers;
-  for (std::string_view rest = answer; !rest.empty();) {
-    const auto number = parse_integer(rest.substr(0, rest.find(',')));
-    if (!number) return {};
-    numbers.push_back(*number);
-    const auto comma = rest.find(',');
-    rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
-    if (comma != std::string_view::npos && rest.empty()) return {};
-  }
-  if (numbers.empty() || numbers[0] < 0 || numbers[0] > 3) return {};
-  Trigger trigger{static_cast<Target>(numbers[0] + 1), 0, 0};
-  if (numbers.size() != (trigger.target == Target::timer ? 2u : 3u)) return {};
-  trigger.interval = numbers.back();
-  if (trigger.target != Target::timer) {
-    if (numbers[1] < 1 || numbers[1] > kAxisCount) return {};
-    trigger.axis = static_cast<int>(numbers[1]);
-  }
-  const bool scale = trigger.target == Target::scale_plus || trigger.target == Target::scale_minus;
-  if (scale && trigger.interval < 0) trigger.interval = -trigger.interval;
-  return possible(trigger) ? std::optional(trigger) : std::nullopt;
-}
 
 Command trigger_command(const Trigger& trigger) {
   const auto [name, arguments] = written(trigger);

@@ -1,4 +1,4 @@
-// The trigger output (manual 97) to 101)): one setting per controller, reported by ?:T (manual 42)).
+// Lines that set the trigger output (manual 97) to 101)): one setting per controller.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,6 @@
 #include "device/shot/command/command.h"
 
 namespace axisgate::shrc203 {
-
-// Parses the answer to ?:T: NS, or m,v or m,a,v; nullopt for any other text. The sign of v repeats what m says.
-std::optional<Trigger> parse_trigger(std::string_view answer);
 
 // Return the line that sets the trigger: trigger_command() for a trigger that was reported, trigger_line() for one that
 // a caller requests. trigger_line() fails with out_of_range.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/shot/command/trigger_reply.h"
 #include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
@@ -159,7 +160,7 @@ Task<Result<void>> Reader::read_trigger(std::string caller) {
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data)
     co_return tl::unexpected(unreadable(Dialogue::Question::trigger, result));
-  store_.note_trigger(parse_trigger(result.reply->text));
+  store_.note_trigger(parse_trigger(result.reply->text, kAllAxes));
   store_.publish();
   co_return Result<void>();
 }

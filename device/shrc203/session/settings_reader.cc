@@ -4,6 +4,7 @@
 #include <string>
 
 #include "device/core/guard.h"
+#include "device/shot/command/trigger_reply.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/session/answers.h"
 #include "device/stage/own_questions.h"
@@ -52,7 +53,7 @@ bool SettingsReader::take(const Answers& answers) {
   std::optional<int> outputs;
   if (is_data(answers.outputs)) outputs = static_cast<int>(*parse_integer(answers.outputs.reply->text));
   store_.note_outputs(outputs);
-  store_.note_trigger(is_data(answers.trigger) ? parse_trigger(answers.trigger.reply->text) : std::nullopt);
+  store_.note_trigger(is_data(answers.trigger) ? parse_trigger(answers.trigger.reply->text, kAllAxes) : std::nullopt);
   const auto controllable = from_axis_setting(answers.axes.reply->text);
   const bool twice = answers.axes_again.reply->text == answers.axes.reply->text || !guarded(Guard::axes_twice);
   if (!controllable || !twice) return false;

@@ -3,24 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include "device/shot/command/trigger_reply.h"
+
 namespace axisgate::shrc203::trigger_test {
 namespace {
 
 using Target = Trigger::Target;
 
 TEST(Trigger, IsReadAsTheManualShowsIt) {
-  EXPECT_EQ(parse_trigger("0,1,1000"), (Trigger{Target::drive_pulses, 1, 1000}));
-  EXPECT_EQ(parse_trigger("1,20"), (Trigger{Target::timer, 0, 20}));
-  EXPECT_EQ(parse_trigger("NS"), Trigger{});
-  EXPECT_EQ(parse_trigger("2,3,30000"), (Trigger{Target::scale_plus, 3, 30'000}));
-  EXPECT_EQ(parse_trigger("3,2,-100"), (Trigger{Target::scale_minus, 2, 100}));
-  EXPECT_EQ(parse_trigger("3,2,100"), (Trigger{Target::scale_minus, 2, 100}));
+  EXPECT_EQ(parse_trigger("0,1,1000", kAllAxes), (Trigger{Target::drive_pulses, 1, 1000}));
+  EXPECT_EQ(parse_trigger("1,20", kAllAxes), (Trigger{Target::timer, 0, 20}));
+  EXPECT_EQ(parse_trigger("NS", kAllAxes), Trigger{});
+  EXPECT_EQ(parse_trigger("2,3,30000", kAllAxes), (Trigger{Target::scale_plus, 3, 30'000}));
+  EXPECT_EQ(parse_trigger("3,2,-100", kAllAxes), (Trigger{Target::scale_minus, 2, 100}));
+  EXPECT_EQ(parse_trigger("3,2,100", kAllAxes), (Trigger{Target::scale_minus, 2, 100}));
 }
 
 TEST(Trigger, WhatNoTriggerCanBeIsNone) {
   for (const char* answer : {"", "OK", "0", "0,1", "1", "1,1,20", "4,1,20", "-1,1,20", "0,4,1000", "0,0,1000", "0,1,1",
                              "0,1,30001", "1,0", "1,10001", "0,1,1000,", "0,,1000", "0,1,-5", "2,1,x"}) {
-    EXPECT_EQ(parse_trigger(answer), std::nullopt) << answer;
+    EXPECT_EQ(parse_trigger(answer, kAllAxes), std::nullopt) << answer;
   }
 }
 
