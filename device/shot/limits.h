@@ -4,7 +4,7 @@
 
 #include "device/core/time.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Pause before a lost line is opened again. It doubles each time: an unplugged adapter costs little, and a returning
 // one is found within seconds.
@@ -48,4 +48,4 @@ inline constexpr Duration kTurnaroundAssumed = std::chrono::milliseconds(5);
 // segment that has not ended by then is late, and delays nobody any longer.
 inline constexpr Duration kRefillReservedAfterDue = std::chrono::milliseconds(50);
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

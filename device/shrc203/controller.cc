@@ -4,6 +4,7 @@
 
 #include "device/core/tasks.h"
 #include "device/shot/line/line.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/motion/approach.h"
 #include "device/shrc203/motion/disarming.h"
 #include "device/shrc203/motion/entry.h"
@@ -58,7 +59,7 @@ struct Controller::Rooms {
       : profile(std::move(settings)),
         permission(keeper),
         store(profile, events, tasks),
-        line(profile, link, tasks.executor(), session),
+        line(model(), profile, link, tasks.executor(), session),
         rights(keeper, store, tasks),
         non_host(session),
         open_stops(store, tasks, session),

@@ -1,29 +1,13 @@
-// Names of device/stage, which every stage controller uses, made available in this namespace.
+// Names of the controller's family and of device/stage, made available in this namespace.
 #pragma once
 
-#include "device/stage/axes.h"
-#include "device/stage/event.h"
-#include "device/stage/motion.h"
-#include "device/stage/profile.h"
-#include "device/stage/requests.h"
-#include "device/stage/state.h"
-#include "device/stage/trigger.h"
-#include "device/use/permission.h"
-#include "device/use/request_context.h"
+#include "device/shot/stage.h"
 
 namespace axisgate::shrc203 {
 
-using namespace stage;  // NOLINT(google-build-using-namespace)
+using namespace shot;  // NOLINT(google-build-using-namespace)
 
 inline constexpr int kAxisCount = 3;
 inline constexpr AxisSet kAllAxes = AxisSet::first(kAxisCount);
-using use::EndedLease;
-using use::everybody_may;
-using use::Occupation;
-using use::Orders;
-using use::Permission;
-using use::RequestContext;
-using use::StopOrder;
-using use::Use;
 
 }  // namespace axisgate::shrc203

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::conformance {
 namespace {
@@ -298,7 +298,7 @@ std::string cells(const CommandRow& row) {
 
 std::string commands_page() {
   std::vector<const CommandRow*> rows;
-  for (const CommandRow& row : command_table()) rows.push_back(&row);
+  for (const CommandRow& row : model().commands()) rows.push_back(&row);
   std::ranges::stable_sort(rows, {}, [](const CommandRow* row) { return row->section; });
   std::string page(kIntroduction);
   for (const CommandRow* row : rows) page += cells(*row);

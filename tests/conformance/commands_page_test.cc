@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 #include "tests/paths/paths.h"
 
 namespace axisgate::shrc203::conformance {
@@ -55,7 +55,7 @@ TEST(CommandsPage, IsWhatTheTableSays) {
 
 TEST(CommandsPage, EverySectionOfTheManualIsThereOnce) {
   std::map<int, int> rows;
-  for (const CommandRow& row : command_table()) ++rows[row.section];
+  for (const CommandRow& row : model().commands()) ++rows[row.section];
   for (int section = 1; section <= kSectionsOfTheManual; ++section) {
     EXPECT_EQ(rows[section], 1) << "rows of section " << section << ')';
   }
@@ -77,7 +77,7 @@ TEST(CommandsPage, EveryLineHasAllCells) {
 
 TEST(CommandsPage, TypedCallsAreOfRowsOfTheTable) {
   std::set<std::string_view> rows, named;
-  for (const CommandRow& row : command_table()) rows.insert(row.name);
+  for (const CommandRow& row : model().commands()) rows.insert(row.name);
   for (const TypedCall& call : typed_calls()) {
     EXPECT_TRUE(rows.contains(call.row)) << call.row << " is no row";
     EXPECT_TRUE(named.insert(call.row).second) << call.row << " stands there twice";

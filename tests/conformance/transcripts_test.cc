@@ -6,7 +6,7 @@
 #include <ostream>
 #include <set>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 #include "tests/conformance/verification.h"
 
 namespace axisgate::shrc203::conformance {
@@ -62,7 +62,7 @@ TEST(Transcripts, AllAreReadable) {
 TEST(Transcripts, EveryRowHasATranscript) {
   std::set<std::string_view> covered;
   for (const auto& example : all_transcripts().examples) covered.insert(example.entry.row);
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     EXPECT_TRUE(covered.erase(row.name)) << "no transcript for " << row.name << " (manual " << row.section << "))";
   }
   for (const auto name : covered) ADD_FAILURE() << "transcripts for '" << name << "', which the table does not have";
@@ -70,8 +70,8 @@ TEST(Transcripts, EveryRowHasATranscript) {
 
 TEST(Transcripts, SectionsMatchTheTable) {
   for (const auto& example : all_transcripts().examples) {
-    const auto row = std::ranges::find(command_table(), example.entry.row, &CommandRow::name);
-    if (row == command_table().end()) continue;  // EveryRowHasATranscript reports it
+    const auto row = std::ranges::find(model().commands(), example.entry.row, &CommandRow::name);
+    if (row == model().commands().end()) continue;  // EveryRowHasATranscript reports it
     EXPECT_EQ(example.entry.section, row->section) << example.entry.place;
   }
 }

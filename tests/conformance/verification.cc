@@ -7,6 +7,7 @@
 
 #include "device/shot/command/command.h"
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::shrc203::conformance {
@@ -39,7 +40,7 @@ Complaint check_command(const Entry& entry, const CommandRow& row) {
   const auto line = encode(row, arguments);
   if (!line) return "its meaning does not encode: " + line.error().message;
   if (*line != entry.sent) return fmt::format("its meaning encodes to '{}'", *line);
-  const auto command = parse_command(entry.sent);
+  const auto command = model().parse(entry.sent);
   if (!command) return "the line is refused: " + command.error().message;
   if (command->row != &row) return fmt::format("the line is read as {}", command->row->name);
   if (command->arguments != arguments) return "the line is read with another meaning";
@@ -54,7 +55,7 @@ std::string without_filling(std::string field) {
 }
 
 Complaint check_reply(const Entry& entry, const CommandRow& row, int axis_count) {
-  const auto reply = parse_reply(row, entry.reply, axis_count);
+  const auto reply = parse_reply(model(), row, entry.reply, axis_count);
   if (!reply) return fmt::format("'{}' is refused as an answer", entry.reply);
   const bool is_word = reply->kind != Reply::Kind::data;
   if (is_word != is_answer_word(entry.reply)) return fmt::format("'{}' is taken for another kind", entry.reply);
@@ -96,15 +97,15 @@ Complaint bring_into_state(const Entry& entry, SimulatorBench& bench) {
 }  // namespace
 
 Complaint check_by_table(const Entry& entry) {
-  const auto row = std::ranges::find(command_table(), entry.row, &CommandRow::name);
-  if (row == command_table().end()) return fmt::format("the table has no row '{}'", entry.row);
+  const auto row = std::ranges::find(model().commands(), entry.row, &CommandRow::name);
+  if (row == model().commands().end()) return fmt::format("the table has no row '{}'", entry.row);
   if (row->section != entry.section) return fmt::format("the table has section {} for it", row->section);
   const auto options = options_of(entry);
   if (!options) return options.error().message;
   if (auto complaint = check_command(entry, *row)) return complaint;
   // A question that names axes is answered only for them, as if the controller had no other axes.
   const auto controllable = *from_axis_setting(std::to_string(options->axis_setting));
-  return check_reply(entry, *row, parse_command(entry.sent)->axes(controllable).count());
+  return check_reply(entry, *row, model().parse(entry.sent)->axes(controllable).count());
 }
 
 Complaint check_by_simulator(const Entry& entry) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {
@@ -52,7 +53,7 @@ class Interleavings : public testing::Test {
   // Calls `take` with each possible question about the chosen rows and sets of controllable axes.
   static void each_question(const std::function<bool(const shrc203::CommandRow&)>& chosen,
                             const std::vector<Axes>& controllable_sets, const std::function<void(Question)>& take) {
-    for (const shrc203::CommandRow& row : shrc203::command_table()) {
+    for (const shrc203::CommandRow& row : shrc203::model().commands()) {
       if (!shrc203::bare_number_range(row) || !chosen(row)) continue;
       for (const Axes controllable : controllable_sets) {
         for (const Axes moving : subsets(controllable)) {

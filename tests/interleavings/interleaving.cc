@@ -7,6 +7,7 @@
 
 #include "device/shot/command/reply.h"
 #include "device/shot/line/completions.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/planning/transaction_lines.h"
 
@@ -59,7 +60,7 @@ std::vector<std::string> Question::lines() const {
 
 std::string Question::on_the_wire() const {
   const auto all = lines();
-  return as_sent(*parse_command(all[all.size() / 2])).line;
+  return as_sent(*model().parse(all[all.size() / 2])).line;
 }
 
 std::string Question::reply() const {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/controller.h"
 
 namespace axisgate::simulation {

@@ -4,6 +4,7 @@
 
 #include "device/shot/command/command.h"
 #include "device/shot/line/completions.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 #include "tests/interleavings/interleaving.h"
 
@@ -38,7 +39,7 @@ const std::map<std::string_view, std::string_view> kAnswersOfEachAxis = {
 const CommandRow* row_of(const std::string& line) {
   static std::map<std::string, const CommandRow*> known;
   const auto [entry, news] = known.try_emplace(line, nullptr);
-  if (const auto command = news ? parse_command(line) : Result<Command>(); news && command)
+  if (const auto command = news ? model().parse(line) : Result<Command>(); news && command)
     entry->second = command->row;
   return entry->second;
 }

@@ -4,6 +4,7 @@
 // Nothing is random: each order is tried.
 #include <gtest/gtest.h>
 
+#include "device/shrc203/command/command_table.h"
 #include "tests/interleavings/fixture.h"
 
 namespace axisgate::simulation {
@@ -14,7 +15,7 @@ using Moment = Question::Moment;
 
 // No such row may rely on the grammar, which would accept a notice as an answer.
 TEST_F(Interleavings, EachSuchRowIsKeptApart) {
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     if (!bare_number_range(row)) continue;
     EXPECT_NE(row.separation, Separation::grammar) << row.name;
     EXPECT_EQ(row.effect, Effect::question) << row.name;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "device/shot/line/completions.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 #include "tests/interleavings/fixture.h"
 
@@ -16,7 +17,7 @@ class InterleavingsOnceWrong : public Interleavings {
  protected:
   static Question question_of(std::string_view row, AxisSet axes, int value) {
     Question question;
-    question.row = &command_row(row);
+    question.row = &model().row(row);
     question.controllable = question.moving = axes;
     question.value = value;
     return question;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "device/shot/command/command.h"
+#include "device/shrc203/command/command_table.h"
 #include "server/access/leases.h"
 #include "tests/simulation/scenario.h"
 
@@ -34,7 +35,7 @@ TEST_P(HazardOfHiddenMotion, NeedsTheRightToMove) {
   const std::size_t lines = world.wire().commands().size();
   EXPECT_THAT(execute(world, {GetParam()}), ElementsAre("LEASE_HELD"));
   EXPECT_EQ(written(world, std::string_view(GetParam()).substr(0, 3), lines), 0) << world.replay();
-  const auto row = parse_command(GetParam());
+  const auto row = model().parse(GetParam());
   ASSERT_TRUE(row);
   EXPECT_TRUE(row->row->moves());
 }

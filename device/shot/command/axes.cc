@@ -2,12 +2,12 @@
 
 #include <cassert>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 char command_letter(AxisSet axes) {
   assert(!axes.empty());
   if (axes.count() == 1) return static_cast<char>('0' + axes.lowest());
-  if (axes == kAllAxes) return 'D';
+  if (axes == kLetteredAxes) return 'D';
   if (!axes.has(3)) return 'A';
   return axes.has(1) ? 'B' : 'C';
 }
@@ -27,7 +27,7 @@ std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable) {
     case 'C':
       return AxisSet::of(2) | AxisSet::of(3);
     case 'D':
-      return kAllAxes;
+      return kLetteredAxes;
     case 'W':
       return controllable;
     default:
@@ -50,7 +50,7 @@ std::optional<AxisSet> from_status_letter(char letter) {
     case 'E':
       return AxisSet::of(2) | AxisSet::of(3);
     case 'W':
-      return kAllAxes;
+      return kLetteredAxes;
     default:
       return std::nullopt;
   }
@@ -72,10 +72,10 @@ std::optional<AxisSet> from_axis_setting(std::string_view digit) {
     case '5':
       return AxisSet::of(2) | AxisSet::of(3);
     case '6':
-      return kAllAxes;
+      return kLetteredAxes;
     default:
       return std::nullopt;
   }
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

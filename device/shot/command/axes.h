@@ -5,9 +5,12 @@
 #include <optional>
 #include <string_view>
 
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
+
+// Axes that a letter can name.
+inline constexpr AxisSet kLetteredAxes = AxisSet::first(3);
 
 // Letters of commands: 1 2 3, A=1+2, B=1+3, C=2+3, D=1+2+3 (manual 3) and every command with an `a`). W means "all
 // controllable axes" and depends on the controller, so the gateway never sends it. command_letter() needs at least one
@@ -22,4 +25,4 @@ std::optional<AxisSet> from_status_letter(char letter);
 // Digits of ?:AXIS (manual 44)): 0 to 6.
 std::optional<AxisSet> from_axis_setting(std::string_view digit);
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

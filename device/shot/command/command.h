@@ -1,15 +1,13 @@
-// Parses a line of text into a checked command, using the command table.
+// A checked command: a row of the command table, its arguments and its line.
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "device/core/problem.h"
 #include "device/shot/command/axes.h"
 #include "device/shot/command/command_row.h"
 #include "device/shot/command/pattern.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 struct Command {
   const CommandRow* row = nullptr;
@@ -20,14 +18,4 @@ struct Command {
   AxisSet axes(AxisSet controllable) const;
 };
 
-// Makes a command, for this folder and for tests; other code uses builders.h. The arguments must fit: an error here is
-// a defect and aborts.
-Command make_command(std::string_view name, const Arguments& arguments = {});
-Command make_command(std::string_view name, AxisSet axes);
-Command make_command(const CommandRow& row, const Arguments& arguments);
-
-// Parses a line that a caller wrote. Fails with malformed_line for control or non-ASCII characters (also CR, LF, NUL),
-// for more than 200 characters, and for a known command in another form; with unknown_command; with out_of_range.
-Result<Command> parse_command(std::string_view text);
-
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -1,5 +1,5 @@
-// The only table of the controller's commands. Encoding, validation, reply parsing, scheduling, the generic Execute,
-// the command line's help and the tests read its rows; no other part of the gateway knows how a command is written.
+// A row of a model's table of commands. Encoding, validation, reply parsing, scheduling, the generic Execute, the
+// command line's help and the tests read the rows; no other part of the gateway knows how a command is written.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "device/core/lane.h"
 #include "device/core/time.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // A parameter: one letter of the manual's command format.
 struct Parameter {
@@ -128,10 +128,4 @@ struct CommandRow {
   constexpr bool may_chain() const { return reply == "OK|OK_D"; }
 };
 
-std::span<const CommandRow> command_table();
-
-// Returns the row with that name, which must exist. For this folder and tests: other code of the driver uses the
-// commands of builders.h and decides by the attributes of their rows.
-const CommandRow& command_row(std::string_view name);
-
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -1,12 +1,15 @@
+#include "device/shot/command/model.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
-#include "device/shot/command/command.h"
-
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
+
+constexpr std::array<std::string_view, 4> kLineQuestions = {"*IDN?", "?:CMD", "!:", "!:S"};
 
 constexpr std::size_t kLineCharactersMax = 200;
 
@@ -28,44 +31,52 @@ std::string in_upper_case(std::string_view text) {
   return upper;
 }
 
+}  // namespace
+
+std::string_view text(LineQuestion question) { return kLineQuestions[static_cast<std::size_t>(question)]; }
+
+Model::Model(std::string_view name, int axis_count, std::vector<CommandRow> commands, std::vector<Notice> notices)
+    : name_(name),
+      axis_count_(axis_count),
+      commands_(std::move(commands)),
+      notices_(std::move(notices)),
+      questions_({make(kLineQuestions[0]), make(kLineQuestions[1]), make(kLineQuestions[2]), make(kLineQuestions[3])}) {
+}
+
+std::optional<ProgramNotice::Kind> Model::notice(std::string_view line) const {
+  const auto found = std::ranges::find(notices_, line, &Notice::text);
+  return found == notices_.end() ? std::nullopt : std::optional(found->kind);
+}
+
+const CommandRow& Model::row(std::string_view name) const {
+  const auto found = std::ranges::find(commands_, name, &CommandRow::name);
+  if (found == commands_.end()) std::abort();
+  return *found;
+}
+
+Command Model::make(std::string_view name, const Arguments& arguments) const { return make(row(name), arguments); }
+
+Command Model::make(const CommandRow& row, const Arguments& arguments) {
+  auto line = encode(row, arguments);
+  if (!line) std::abort();
+  return {&row, arguments, *std::move(line)};
+}
+
 // Returns the command with the longest name that begins the text. G is skipped, since it begins too many texts.
-const CommandRow* begun_by(std::string_view text) {
+const CommandRow* Model::begun_by(std::string_view text) const {
   const std::string upper = in_upper_case(text);
   const CommandRow* begun = nullptr;
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : commands_) {
     if (!upper.starts_with(row.name) || row.name == "G") continue;
     if (begun == nullptr || row.name.size() > begun->name.size()) begun = &row;
   }
   return begun;
 }
 
-}  // namespace
-
-AxisSet Command::axes(AxisSet controllable) const {
-  const auto letter = arguments.first("a");
-  const auto parameter = std::ranges::find(row->parameters, "a", &Parameter::letter);
-  const bool time = letter && parameter->kind != Parameter::Kind::choice;  // interval of T:T (manual 97))
-  if (!letter || time) return controllable;
-  if (row->third_axis) return kAllAxes;
-  return from_command_letter(letter->front(), controllable).value_or(controllable);
-}
-
-Command make_command(std::string_view name, const Arguments& arguments) {
-  return make_command(command_row(name), arguments);
-}
-
-Command make_command(const CommandRow& row, const Arguments& arguments) {
-  auto line = encode(row, arguments);
-  if (!line) std::abort();
-  return {&row, arguments, *std::move(line)};
-}
-
-Command make_command(std::string_view name, AxisSet axes) { return make_command(name, Arguments().axes(axes)); }
-
-Result<Command> parse_command(std::string_view text) {
+Result<Command> Model::parse(std::string_view text) const {
   if (auto good = check_characters(text); !good) return tl::unexpected(good.error());
   std::optional<Problem> wrong;
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : commands_) {
     auto arguments = decode(row, text);
     if (!arguments) continue;
     if (!*arguments) {
@@ -84,4 +95,4 @@ Result<Command> parse_command(std::string_view text) {
               "`axisctl commands` lists them with their parameters");
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -7,7 +7,7 @@
 
 #include "device/core/quantity.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 constexpr int kDecimalDigitsMax = 15;
@@ -164,11 +164,13 @@ Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
   return {};
 }
 
+constexpr std::size_t kRepeatsMax = kLetteredAxes.count();
+
 // Returns how often a {...} must be repeated; 0 if W or missing axes leave the number open.
 std::size_t axes_named(const Arguments& arguments) {
   const auto letter = arguments.first("a");
   if (!letter || *letter == "W") return 0;
-  const auto axes = from_command_letter(letter->front(), kAllAxes);
+  const auto axes = from_command_letter(letter->front(), kLetteredAxes);
   return axes ? static_cast<std::size_t>(axes->count()) : 0;
 }
 
@@ -223,7 +225,7 @@ class Encoder {
       if (count++ > 0) out_ += part.separator;
       if (auto done = write(part.once); !done) return done;
     }
-    if (count == 0 || count > kAxisCount || (expected_repeats_ != 0 && count != expected_repeats_)) return misfit();
+    if (count == 0 || count > kRepeatsMax || (expected_repeats_ != 0 && count != expected_repeats_)) return misfit();
     return {};
   }
 
@@ -276,7 +278,7 @@ class Decoder {
   bool read_repeated(Repeated part) {
     const std::size_t expected = axes_named(arguments_);
     std::size_t count = 0;
-    while (expected == 0 ? (count < kAxisCount && !text_.empty()) : count < expected) {
+    while (expected == 0 ? (count < kRepeatsMax && !text_.empty()) : count < expected) {
       const auto saved_text = text_;
       const auto saved_arguments = arguments_;
       if (count > 0) {
@@ -383,4 +385,4 @@ std::optional<Result<Arguments>> decode(const CommandRow& row, std::string_view 
   return Result<Arguments>(*arguments);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

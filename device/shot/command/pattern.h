@@ -14,7 +14,7 @@
 #include "device/shot/command/axes.h"
 #include "device/shot/command/command_row.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Parameters in the order of the line; inside {...} a letter occurs once for each axis.
 class Arguments {
@@ -40,4 +40,4 @@ Result<std::string> encode(const CommandRow& row, const Arguments& arguments);
 // if the text does not have this row's form; a Problem if the form fits and a value is out of range.
 std::optional<Result<Arguments>> decode(const CommandRow& row, std::string_view text);
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

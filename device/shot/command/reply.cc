@@ -7,7 +7,7 @@
 #include "device/core/guard.h"
 #include "device/shot/command/trigger_reply.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -156,7 +156,7 @@ bool field_matches(std::string_view spec, std::string_view field) {
 }
 
 // Replies that are matched as a whole: their commas do not separate fields.
-std::optional<bool> whole_line_matches(std::string_view spec, std::string_view line) {
+std::optional<bool> whole_line_matches(const Model& model, std::string_view spec, std::string_view line) {
   if (spec == "identity") return parse_identity(line).has_value();
   if (spec == "version") return is_version(line);
   if (spec == "model") return is_model(line);
@@ -167,7 +167,7 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   if (spec == "line") return is_line_setting(line);
   if (spec == "arc") return is_arc_setting(line);
   if (spec == "step") return is_step(line);
-  if (spec == "trigger") return parse_trigger(line, kAllAxes).has_value();
+  if (spec == "trigger") return parse_trigger(line, model.axes()).has_value();
   return {};
 }
 
@@ -186,24 +186,24 @@ bool fields_match(std::string_view specs, const std::vector<std::string>& fields
   return next == fields.size();
 }
 
-// An answer has every controllable axis or, if invalid axes are shown as 0 and D (manual 5)), all three; a question
-// that names its axes receives only those.
-bool data_matches(const CommandRow& row, std::string_view line, const std::vector<std::string>& fields,
-                  int axis_count) {
-  if (const auto whole = whole_line_matches(row.reply, line)) return *whole;
+// An answer has every controllable axis or, if invalid axes are shown as 0 and D (manual 5)), all of the model; a
+// question that names its axes receives only those.
+bool data_matches(const Model& model, const CommandRow& row, std::string_view line,
+                  const std::vector<std::string>& fields, int axis_count) {
+  if (const auto whole = whole_line_matches(model, row.reply, line)) return *whole;
   if (row.reply == "numbers") return fields.size() > 1 && std::ranges::all_of(fields, is_number);
   if (row.reply.find('*') == std::string_view::npos) return fields_match(row.reply, fields, 0);
-  for (std::size_t count = 1; count <= kAxisCount; ++count) {
-    const bool fits = axis_count == 0 || count == static_cast<std::size_t>(axis_count) || count == kAxisCount ||
-                      row.separation == Separation::grammar;
-    if (fits && fields_match(row.reply, fields, count)) return true;
+  for (int count = 1; count <= model.axis_count(); ++count) {
+    const bool fits =
+        axis_count == 0 || count == axis_count || count == model.axis_count() || row.separation == Separation::grammar;
+    if (fits && fields_match(row.reply, fields, static_cast<std::size_t>(count))) return true;
   }
   return false;
 }
 
 }  // namespace
 
-std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, int axis_count) {
+std::optional<Reply> parse_reply(const Model& model, const CommandRow& row, std::string_view line, int axis_count) {
   const bool is_setting = row.reply.starts_with("OK");
   Reply reply{Reply::Kind::data, std::string(line), {}};
   if (line == "NG" || line == "NG_I") {
@@ -222,7 +222,7 @@ std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, i
     return {};
   }
   reply.fields = is_one_field(row.reply) ? std::vector{reply.text} : split(line);
-  if (guarded(Guard::question_grammar) && !data_matches(row, line, reply.fields, axis_count)) return {};
+  if (guarded(Guard::question_grammar) && !data_matches(model, row, line, reply.fields, axis_count)) return {};
   return reply;
 }
 
@@ -245,8 +245,9 @@ std::optional<Identity> parse_identity(std::string_view line) {
   return Identity{fields[0], fields[1], fields[2], fields[3]};
 }
 
-std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable) {
-  const auto named = reply.fields.size() == kAxisCount ? kAllAxes.list() : controllable.list();
+std::map<int, std::string> by_axis(const Model& model, const Reply& reply, AxisSet controllable) {
+  const bool all = reply.fields.size() == static_cast<std::size_t>(model.axis_count());
+  const auto named = (all ? model.axes() : controllable).list();
   std::map<int, std::string> fields;
   if (named.size() != reply.fields.size()) return fields;
   for (std::size_t i = 0; i < named.size(); ++i) {
@@ -255,12 +256,13 @@ std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable) {
   return fields;
 }
 
-std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable) {
+std::optional<std::vector<AxisReading>> parse_positions(const Model& model, const Reply& reply, AxisSet controllable) {
+  const auto all = static_cast<std::size_t>(model.axis_count());
   const std::size_t count = reply.fields.size() / 3;
-  if (reply.fields.size() != 3 * count || count == 0 || count > kAxisCount) return {};
-  const auto named = count == kAxisCount ? kAllAxes.list() : controllable.list();
+  if (reply.fields.size() != 3 * count || count == 0 || count > all) return {};
+  const auto named = (count == all ? model.axes() : controllable).list();
   if (named.size() != count) return {};
-  std::vector<AxisReading> readings(kAxisCount);
+  std::vector<AxisReading> readings(all);
   for (std::size_t i = 0; i < count; ++i) {
     auto& reading = readings[static_cast<std::size_t>(named[i] - 1)];
     std::string_view amount = reply.fields[i];
@@ -299,4 +301,4 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   return negative ? -value : value;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "device/core/quantity.h"
-#include "device/shot/command/command_row.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/command/model.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 struct Reply {
   enum class Kind { ok, ok_d, ng, ng_i, data };
@@ -24,9 +24,9 @@ struct Reply {
   bool accepted() const { return kind == Kind::ok || kind == Kind::ok_d; }
 };
 
-// Returns nullopt if `line` cannot be an answer to `row` from a controller with `axis_count` controllable axes (0: not
-// known yet, any number from 1 to 3).
-std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, int axis_count);
+// Returns nullopt if `line` cannot be an answer to `row` from a unit of the model with `axis_count` controllable axes
+// (0: not known yet, any number from 1 to the model's).
+std::optional<Reply> parse_reply(const Model& model, const CommandRow& row, std::string_view line, int axis_count);
 
 // Range of a single bare number as an answer to `row`, for one axis or in total; nullopt if the answer is never a bare
 // number.
@@ -44,7 +44,7 @@ std::optional<Identity> parse_identity(std::string_view line);  // four fields (
 // Returns the fields of an answer to a question for all axes, by axis. Only controllable axes are included, also if the
 // answer has 0 and D for the others (manual 5)). Empty if the number of fields is neither all axes nor the controllable
 // ones.
-std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable);
+std::map<int, std::string> by_axis(const Model& model, const Reply& reply, AxisSet controllable);
 
 struct AxisReading {
   bool valid = false;  // the axis is controllable
@@ -52,13 +52,13 @@ struct AxisReading {
   AxisStatusBits status;
   bool busy = false;
 };
-// Parses a reply to Q:SPC (manual 5)), in pulses: three readings, in axis order. `controllable` assigns the fields if
-// the reply leaves invalid axes out.
-std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable);
+// Parses a reply to Q:SPC (manual 5)), in pulses: a reading of each axis of the model, in order. `controllable` assigns
+// the fields if the reply leaves invalid axes out.
+std::optional<std::vector<AxisReading>> parse_positions(const Model& model, const Reply& reply, AxisSet controllable);
 
 // Parses S100F1000R50. nullopt for numbers outside the ranges of manual 89) D:, which only a disturbed line reports.
 std::optional<SpeedSetting> parse_speed_setting(std::string_view field);
 
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -7,7 +7,7 @@
 #include "device/shot/command/command_row.h"
 #include "device/shot/limits.h"
 
-namespace axisgate::shrc203::rows {
+namespace axisgate::shot::rows {
 
 inline constexpr std::array kNone = std::array<Parameter, 0>{};
 
@@ -130,4 +130,4 @@ inline constexpr Needs kReadyExcited{.ready = true, .excited = true};
 inline constexpr Needs kReadyExcitedNoLimit{.ready = true, .excited = true, .no_limit = true};
 inline constexpr Needs kExcitedNoLimit{.excited = true, .no_limit = true};
 
-}  // namespace axisgate::shrc203::rows
+}  // namespace axisgate::shot::rows

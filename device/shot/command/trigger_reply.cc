@@ -4,7 +4,7 @@
 
 #include "device/shot/command/reply.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 using Target = Trigger::Target;
@@ -49,4 +49,4 @@ std::optional<Trigger> parse_trigger(std::string_view answer, AxisSet axes) {
   return possible(trigger, axes) ? std::optional(trigger) : std::nullopt;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

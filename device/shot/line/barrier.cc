@@ -7,24 +7,15 @@
 
 #include "device/core/escape.h"
 #include "device/core/guard.h"
-#include "device/shrc203/command/builders.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
-namespace {
+namespace axisgate::shot {
 
-using commands::Question;
-
-// Reports whether the line can be a reply to ?:CMD: a command. No other reply in the command table looks like a
-// command.
-bool is_known_command(std::string_view line) { return parse_command(line).has_value(); }
-
-}  // namespace
-
-Barrier::Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
+Barrier::Barrier(const Model& model, std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
                  std::function<bool(const Identity&)> is_known,
                  std::function<void(std::string_view line, TimePoint now)> write)
-    : line_in_doubt_(std::move(line_in_doubt)),
+    : model_(model),
+      line_in_doubt_(std::move(line_in_doubt)),
       limits_(limits),
       outstanding_(outstanding),
       is_known_(std::move(is_known)),
@@ -65,7 +56,7 @@ int Barrier::older_answers(Step step) const {
 void Barrier::probe(TimePoint now) {
   ++probes_;
   probed_ = now;
-  write_(commands::text(step_ == Step::identity ? Question::identity : Question::previous_command), now);
+  write_(text(step_ == Step::identity ? LineQuestion::identity : LineQuestion::line_before), now);
   deadline_ = now + limits_.reply;
 }
 
@@ -80,7 +71,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   if (step_ == Step::echo && is_echo(line)) {
     // The reply to a repeated ?:CMD is the ?:CMD before it.
     if (line == line_in_doubt_) received_ = true;
-    if (line != line_in_doubt_ && line != commands::text(Question::previous_command)) received_ = false;
+    if (line != line_in_doubt_ && line != text(LineQuestion::line_before)) received_ = false;
     echo_ = line;
     begin(Step::identity, now);
     return true;
@@ -89,7 +80,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   if (step_ == Step::after_stop && is_known_command(line)) {
     if (older_ > 0) {
       --older_;
-      return settle_outstanding(outstanding_, line);
+      return settle_outstanding(line);
     }
     begin(Step::identity, now);
     return true;
@@ -97,11 +88,11 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   if (step_ == Step::identity) {
     if (older_ > 0 && parse_identity(line)) {
       --older_;
-      return settle_outstanding(outstanding_, line);
+      return settle_outstanding(line);
     }
     if (auto identity = parse_identity(line)) return on_identity(*std::move(identity), now);
   }
-  const bool outstanding = settle_outstanding(outstanding_, line);
+  const bool outstanding = settle_outstanding(line);
   silence_broken(now);
   return outstanding;
 }
@@ -152,16 +143,18 @@ void Barrier::probe_again(TimePoint now) {
   }
 }
 
-bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line) {
+bool Barrier::settle_outstanding(std::string_view line) { return shot::settle_outstanding(model_, outstanding_, line); }
+
+bool settle_outstanding(const Model& model, OutstandingAnswers& outstanding, std::string_view line) {
   if (outstanding.identities > 0 && parse_identity(line)) {
     --outstanding.identities;
     return true;
   }
-  if (outstanding.echoes > 0 && is_known_command(line)) {
+  if (outstanding.echoes > 0 && model.parse(line)) {
     --outstanding.echoes;
     return true;
   }
   return false;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

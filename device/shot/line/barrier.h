@@ -17,9 +17,10 @@
 #include <string_view>
 
 #include "device/core/time.h"
+#include "device/shot/command/model.h"
 #include "device/shot/command/reply.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Number of replies to abandoned probes that may still arrive.
 struct OutstandingAnswers {
@@ -38,7 +39,7 @@ class Barrier {
   // kAnyLine the barrier sends *IDN? even if ?:CMD is not answered. `is_known` reports whether an identity is that of
   // the expected controller. `write` sends one line.
   static constexpr std::string_view kAnyLine = "?";
-  Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
+  Barrier(const Model& model, std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
           std::function<bool(const Identity&)> is_known,
           std::function<void(std::string_view line, TimePoint now)> write);
 
@@ -78,8 +79,12 @@ class Barrier {
   void probe_again(TimePoint now);
   bool on_identity(Identity identity, TimePoint now);
   void silence_broken(TimePoint now);
+  // Reports whether the line can be a reply to ?:CMD: a command. No other reply of a model looks like a command.
+  bool is_known_command(std::string_view line) const { return model_.parse(line).has_value(); }
   bool is_echo(std::string_view line) const;
+  bool settle_outstanding(std::string_view line);
 
+  const Model& model_;
   std::string line_in_doubt_;
   Limits limits_;
   OutstandingAnswers& outstanding_;
@@ -103,6 +108,6 @@ class Barrier {
 };
 
 // Reports whether `line` may be the reply to an outstanding probe. If so, removes that reply from `outstanding`.
-bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line);
+bool settle_outstanding(const Model& model, OutstandingAnswers& outstanding, std::string_view line);
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // ClosedAnswers separates replies from completions. The numbers of one closed exchange are its reply and completions.
 // If all are equal, the reply is that number. If they differ, the replies of other exchanges show which number it is.
@@ -35,4 +35,4 @@ class ClosedAnswers {
   std::vector<std::vector<int>> unclear_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -1,9 +1,9 @@
 #include "device/shot/line/completions.h"
 
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 void Completions::connected() {
   for (Axis& axis : axes_) axis = {.possible = guarded(Guard::possible_after_connect)};
@@ -56,7 +56,7 @@ AxisSet Completions::busy(AxisSet axes) {
 }
 
 void Completions::answered(TimePoint written, AxisSet busy) {
-  for (const int number : kAllAxes.list()) {
+  for (const int number : all().list()) {
     Axis& one = axis(number);
     if (busy.has(number)) continue;
     const bool after = one.until && (*one.until <= written || !guarded(Guard::settled_by_exchange));
@@ -66,7 +66,7 @@ void Completions::answered(TimePoint written, AxisSet busy) {
 
 AxisSet Completions::possible() const {
   AxisSet set;
-  for (const int number : kAllAxes.list()) {
+  for (const int number : all().list()) {
     if (axis(number).possible) set.add(number);
   }
   return set;
@@ -83,4 +83,4 @@ std::optional<TimePoint> Completions::settles_from(AxisSet axes) const {
   return latest;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -1,16 +1,18 @@
 // Completions that may still arrive from each axis, so that a notice is never taken for a reply.
 #pragma once
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "device/core/time.h"
-#include "device/shot/command/axes.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Completions {
  public:
+  explicit Completions(int axis_count) : axes_(static_cast<std::size_t>(axis_count)) {}
+
   // Makes a completion of every axis possible: after a connect it is unknown which axes still move.
   void connected();
 
@@ -56,7 +58,9 @@ class Completions {
   Axis& axis(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
   const Axis& axis(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }
 
-  std::array<Axis, kAxisCount> axes_;
+  AxisSet all() const { return AxisSet::first(static_cast<int>(axes_.size())); }
+
+  std::vector<Axis> axes_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

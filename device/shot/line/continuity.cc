@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "device/core/guard.h"
-#include "device/shrc203/command/builders.h"
+#include "device/shot/command/model.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
-const std::string_view kQuestion = commands::text(commands::Question::previous_command);
+const std::string_view kQuestion = text(LineQuestion::line_before);
 
 // Other programs may send commands that are not in the command table (PSET: ...). A command is a verb and its colon
 // (manual 4.).
@@ -90,4 +90,4 @@ Continuity::Verdict Continuity::compare(std::string_view line_before, TimePoint 
   return known ? Verdict::same : foreign ? Verdict::foreign : Verdict::open;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Continuity {
  public:
@@ -59,4 +59,4 @@ class Continuity {
   TimePoint alive_{};
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

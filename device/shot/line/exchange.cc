@@ -5,7 +5,7 @@
 
 #include "device/core/transitions.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 // README.md has this table for people.
@@ -84,4 +84,4 @@ std::optional<Doubted> Exchange::leave_barrier(ExchangeEvent event) {
   return doubt == nullptr ? std::nullopt : std::move(doubt->doubted);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

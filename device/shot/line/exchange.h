@@ -14,10 +14,10 @@
 #include "device/shot/line/barrier.h"
 #include "device/shot/line/exchange_request.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Sent after a number that may be the reply or a completion.
-inline constexpr auto kClosing = commands::Question::each_ready;
+inline constexpr auto kClosing = LineQuestion::each_ready;
 
 enum class ExchangePhase {
   idle,            // no line awaits a reply
@@ -105,4 +105,4 @@ class Exchange {
   std::variant<std::monostate, InFlight, InDoubt> held_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

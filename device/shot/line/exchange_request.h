@@ -10,11 +10,11 @@
 #include "device/core/problem.h"
 #include "device/core/task.h"
 #include "device/core/time.h"
+#include "device/shot/command/model.h"
 #include "device/shot/command/reply.h"
-#include "device/shrc203/command/builders.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 struct ExchangeRequest {
   Command command;
@@ -65,4 +65,4 @@ struct Waiting {
 };
 using WaitingPtr = std::shared_ptr<Waiting>;
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

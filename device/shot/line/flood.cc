@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 void Flood::received(std::size_t bytes, TimePoint now) {
   if (now >= window_ + kWindow) {
@@ -16,4 +16,4 @@ void Flood::belonged(std::size_t bytes) {
   unclaimed_ = std::max<std::int64_t>(0, unclaimed_ - static_cast<std::int64_t>(bytes));
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

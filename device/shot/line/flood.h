@@ -7,7 +7,7 @@
 
 #include "device/core/time.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Flood {
  public:
@@ -29,4 +29,4 @@ class Flood {
   std::int64_t unclaimed_ = 0;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -1,9 +1,9 @@
 #include "device/shot/line/incoming.h"
 
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 void Incoming::push(std::string_view bytes) {
   if (!mid_line()) partial_since_.reset();
@@ -40,4 +40,4 @@ bool Incoming::drop_unended(TimePoint now) {
   return true;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -7,7 +7,7 @@
 #include "device/core/line_framer.h"
 #include "device/core/time.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Shown in place of an incomplete line that was discarded.
 inline constexpr std::string_view kUnended = "(a line that did not end)";
@@ -31,4 +31,4 @@ class Incoming {
   std::optional<TimePoint> partial_since_;  // time at which the present incomplete line was noticed
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

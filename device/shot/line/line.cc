@@ -6,21 +6,23 @@
 #include <utility>
 
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
-Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener)
-    : link_(link),
+Line::Line(const Model& model, const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener)
+    : model_(model),
+      link_(link),
       executor_(executor),
       listener_(listener),
       backoff_(kReopenBackoffMin),
       timing_(profile.baud),
       flood_(profile.baud),
-      recovery_(profile, *this, listener_, link_state_, timing_, controllable_, completions_, continuity_, exchange_,
-                second_reply_, waiting_, wire_, results_),
-      sending_(profile, listener_, link_state_, timing_, incoming_, completions_, continuity_, reservations_, exchange_,
-               second_reply_, waiting_, wire_) {}
+      completions_(model.axis_count()),
+      recovery_(model, profile, *this, listener_, link_state_, timing_, controllable_, completions_, continuity_,
+                exchange_, second_reply_, waiting_, wire_, results_),
+      sending_(model, profile, listener_, link_state_, timing_, incoming_, completions_, continuity_, reservations_,
+               exchange_, second_reply_, waiting_, wire_) {}
 
 bool Line::change(LinkEvent event, TimePoint now) {
   const LinkPhase before = link_state_.phase();
@@ -171,4 +173,4 @@ void Line::busy(AxisSet axes, TimePoint now) {
   if (!changed.empty()) listener_.line_event(LineLearned{LineLearned::What::busy, changed}, now);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

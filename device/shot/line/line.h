@@ -11,6 +11,7 @@
 #include "device/core/problem.h"
 #include "device/core/task.h"
 #include "device/core/violations.h"
+#include "device/shot/command/model.h"
 #include "device/shot/line/completions.h"
 #include "device/shot/line/continuity.h"
 #include "device/shot/line/exchange.h"
@@ -29,15 +30,15 @@
 #include "device/shot/line/sending.h"
 #include "device/shot/line/waiting_lines.h"
 #include "device/shot/line/wire.h"
-#include "device/shrc203/profile.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/profile.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Line : private Port, private Violations {
  public:
   // The referenced objects must outlive the line.
-  Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener);
+  Line(const Model& model, const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener);
 
   // Makes each connect begin with ?:CMD until a controller has answered.
   void ask_line_before() { recovery_.ask_line_before(); }
@@ -99,6 +100,7 @@ class Line : private Port, private Violations {
   void illegal(std::string_view machine, std::string_view state, std::string_view event) override;
   Duration pause_before_reopening();
 
+  const Model& model_;
   ByteLink& link_;
   Executor& executor_;
   LineListener& listener_;
@@ -116,11 +118,11 @@ class Line : private Port, private Violations {
   Exchange exchange_{*this};
   WaitingLines waiting_{listener_, link_state_, completions_, reservations_, controllable_};
   Wire wire_{link_, listener_, timing_, continuity_, controllable_};
-  Results results_{listener_, exchange_, completions_, timing_, flood_, controllable_};
+  Results results_{model_, listener_, exchange_, completions_, timing_, flood_, controllable_};
   Recovery recovery_;
-  Receiving receiving_{*this,       listener_, link_state_,   controllable_, incoming_, flood_,   completions_,
-                       continuity_, exchange_, second_reply_, wire_,         results_,  recovery_};
+  Receiving receiving_{model_,       *this,       listener_, link_state_,   controllable_, incoming_, flood_,
+                       completions_, continuity_, exchange_, second_reply_, wire_,         results_,  recovery_};
   Sending sending_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

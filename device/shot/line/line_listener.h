@@ -10,9 +10,9 @@
 #include "device/core/time.h"
 #include "device/shot/command/reply.h"
 #include "device/shot/line/exchange_request.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class LineListener {
  public:
@@ -43,4 +43,4 @@ class LineListener {
   virtual std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) = 0;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

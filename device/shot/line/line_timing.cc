@@ -4,10 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shrc203/command/builders.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/command/model.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 constexpr std::string_view kLongestAcknowledgement = "OK_D";
@@ -42,8 +42,8 @@ Duration LineTiming::longest_exchange(const Command& command) const {
   // Questions need no ?:CMD after NG: a mode that refuses them also prevents motion along a path.
   if (command.row->effect == Effect::question) return lasts(line + kReplyBytesMax);
   // The ?:CMD after NG, whose reply is the refused line.
-  const std::size_t after_refusal = commands::text(commands::Question::previous_command).size();
+  const std::size_t after_refusal = text(LineQuestion::line_before).size();
   return lasts(line + kLongestAcknowledgement.size()) + lasts(after_refusal + line);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -8,7 +8,7 @@
 #include "device/core/time.h"
 #include "device/shot/command/command.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class LineTiming {
  public:
@@ -37,4 +37,4 @@ class LineTiming {
   std::deque<Duration> turnarounds_;  // oldest first
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

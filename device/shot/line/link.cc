@@ -2,7 +2,7 @@
 
 #include "device/core/transitions.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 // README.md has a drawing of this table.
@@ -89,4 +89,4 @@ bool Link::happened(LinkEvent event) {
   return to.has_value();
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 enum class LinkPhase {
   closed,              // the port is closed; it is opened again after the backoff
@@ -64,4 +64,4 @@ class Link {
   LinkPhase phase_ = LinkPhase::closed;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

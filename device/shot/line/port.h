@@ -6,7 +6,7 @@
 #include "device/core/time.h"
 #include "device/shot/line/link.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Port {
  public:
@@ -18,4 +18,4 @@ class Port {
   virtual void close(LinkEvent event, const std::string& why, TimePoint now) = 0;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

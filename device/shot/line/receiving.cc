@@ -11,9 +11,9 @@
 
 #include "device/core/escape.h"
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
@@ -30,13 +30,6 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
       break;
   }
   return ExchangeEnded::Outcome::data;
-}
-
-// Returns the program notice in `text`; nullopt if there is none. A notice is never a reply (manual 109), 110)).
-std::optional<ProgramNotice::Kind> program_notice(std::string_view text) {
-  if (text == "COMP") return ProgramNotice::Kind::ended;
-  if (text == "TRIG") return ProgramNotice::Kind::trigger;
-  return {};
 }
 
 }  // namespace
@@ -81,7 +74,7 @@ bool Receiving::shut_if_flooded(TimePoint now) {
 
 void Receiving::on_line(const LineFramer::Line& line, TimePoint now) {
   const bool overlong = line.overlong && guarded(Guard::overlong_lines);
-  if (const auto reported = program_notice(line.text); reported && guarded(Guard::notices_distinguished)) {
+  if (const auto reported = model_.notice(line.text); reported && guarded(Guard::notices_distinguished)) {
     return listener_.line_event(ProgramNotice{*reported}, now);
   }
   if (!overlong && on_axis_number(line.text, now)) return;
@@ -89,7 +82,7 @@ void Receiving::on_line(const LineFramer::Line& line, TimePoint now) {
     case ExchangePhase::in_doubt:
       return recovery_.on_line(line.text, now);
     case ExchangePhase::idle:
-      if (!settle_outstanding(recovery_.outstanding(), line.text)) unexpected(line.text, now);
+      if (!settle_outstanding(model_, recovery_.outstanding(), line.text)) unexpected(line.text, now);
       return;
     case ExchangePhase::closing:
       return on_line_while_closing(line.text, now);
@@ -112,10 +105,10 @@ void Receiving::on_answer(const LineFramer::Line& line, TimePoint now) {
     exchange_.question_answered();
     return recovery_.on_last_command(line.text, now);
   }
-  if (auto reply = overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count())) {
+  if (auto reply = overlong ? std::nullopt : parse_reply(model_, row, line.text, controllable_.count())) {
     return on_reply(std::move(*reply), now);
   }
-  if (!settle_outstanding(recovery_.outstanding(), line.text)) doubt_answer(line.text, now);
+  if (!settle_outstanding(model_, recovery_.outstanding(), line.text)) doubt_answer(line.text, now);
 }
 
 // Reports whether `text` is a refusal that may answer another line than the one in flight.
@@ -154,8 +147,9 @@ void Receiving::doubt_answer(std::string_view text, TimePoint now) {
 
 // Handles `text` if it is an axis number that is or may be a completion. Returns false otherwise.
 bool Receiving::on_axis_number(std::string_view text, TimePoint now) {
-  if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
+  if (text.size() != 1 || text[0] < '1' || text[0] > '9') return false;
   const int axis = text[0] - '0';
+  if (!model_.axes().has(axis)) return false;
   const bool possible = completions_.possible(axis);
   if (possible) flood_.belonged(text.size() + LineTiming::kTerminator);
   if (const InFlight* const line = exchange_.in_flight()) {
@@ -166,7 +160,7 @@ bool Receiving::on_axis_number(std::string_view text, TimePoint now) {
     }
     // No question whose reply a possible completion could look like is in flight now (WaitingLines::conflicts()).
     const CommandRow& row = *line->request().command.row;
-    if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
+    if (row.separation != Separation::grammar && parse_reply(model_, row, text, controllable_.count())) return false;
   }
   listener_.completion_seen(axis, !possible || exchange_.phase() == ExchangePhase::in_doubt, now);
   return true;
@@ -178,7 +172,7 @@ void Receiving::on_number(int number, TimePoint now) {
   continuity_.answered(false, now);
   if (!exchange_.closing()) {
     InFlight& line = *exchange_.in_flight();
-    wire_.go_on(commands::text(kClosing), line.exchange, line.request(), now);
+    wire_.go_on(text(kClosing), line.exchange, line.request(), now);
     line.limit = now + recovery_.reply_limit();
   }
   exchange_.number_received(number);
@@ -187,7 +181,7 @@ void Receiving::on_number(int number, TimePoint now) {
 void Receiving::on_line_while_closing(std::string_view text, TimePoint now) {
   const auto number = text.size() <= 2 ? parse_integer(text) : std::nullopt;
   if (number && *number >= 0) return on_number(static_cast<int>(*number), now);
-  const auto ready = parse_reply(commands::row_of(kClosing), text, controllable_.count());
+  const auto ready = parse_reply(model_, *model_.ask(kClosing).row, text, controllable_.count());
   if (ready && ready->kind == Reply::Kind::data) return close(now);
   doubt_answer(text, now);
 }
@@ -195,7 +189,9 @@ void Receiving::on_line_while_closing(std::string_view text, TimePoint now) {
 void Receiving::close(TimePoint now) {
   continuity_.answered(true, now);
   std::vector<int> numbers = exchange_.in_flight()->numbers;
-  const auto may_be_axis = [this](int number) { return number >= 1 && number <= 3 && completions_.possible(number); };
+  const auto may_be_axis = [this](int number) {
+    return number >= 1 && number <= model_.axis_count() && completions_.possible(number);
+  };
   const auto certain = std::ranges::find_if_not(numbers, may_be_axis);
   ExchangeResult result{.written = true};
   if (certain == numbers.end()) {
@@ -244,4 +240,4 @@ void Receiving::unexpected(std::string_view text, TimePoint now) {
   listener_.line_event(UnexpectedLine{std::string(text)}, now);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

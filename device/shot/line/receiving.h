@@ -18,17 +18,18 @@
 #include "device/shot/line/results.h"
 #include "device/shot/line/second_reply.h"
 #include "device/shot/line/wire.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Receiving {
  public:
   // `controllable`: the axes of the present connection. The referenced objects must outlive this one.
-  Receiving(Port& port, LineListener& listener, const Link& link, const AxisSet& controllable, Incoming& incoming,
-            Flood& flood, Completions& completions, Continuity& continuity, Exchange& exchange,
+  Receiving(const Model& model, Port& port, LineListener& listener, const Link& link, const AxisSet& controllable,
+            Incoming& incoming, Flood& flood, Completions& completions, Continuity& continuity, Exchange& exchange,
             SecondReply& second_reply, Wire& wire, Results& results, Recovery& recovery)
-      : port_(port),
+      : model_(model),
+        port_(port),
         listener_(listener),
         link_(link),
         controllable_(controllable),
@@ -61,6 +62,7 @@ class Receiving {
   void suspect_restart(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
 
+  const Model& model_;
   Port& port_;
   LineListener& listener_;
   const Link& link_;
@@ -76,4 +78,4 @@ class Receiving {
   Recovery& recovery_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -8,9 +8,9 @@
 
 #include "device/core/escape.h"
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
 Guard guard_of(ExchangeEnded::Outcome doubt) {
@@ -34,7 +34,7 @@ void Recovery::doubt(ExchangeResult doubted, ExchangeEnded::Outcome outcome, Tim
   const Command& command = abandoned.request().command;
   if (command.row->may_chain()) completions_.chained(command.axes(controllable_), now);
   const std::string why = doubted.problem->message;
-  const std::string last_line(exchange_.closing() ? commands::text(kClosing) : command.line);
+  const std::string last_line(exchange_.closing() ? text(kClosing) : command.line);
   results_.report(abandoned, doubted, outcome, now);
   begin(last_line, limits(), Doubted{abandoned.waiting, std::move(doubted)});
   port_.change(LinkEvent::answer_doubted, now);
@@ -45,7 +45,7 @@ void Recovery::doubt(ExchangeResult doubted, ExchangeEnded::Outcome outcome, Tim
 
 void Recovery::begin(std::string line_in_doubt, Barrier::Limits limits, std::optional<Doubted> doubted) {
   exchange_.doubted(std::make_unique<Barrier>(
-                        std::move(line_in_doubt), limits, outstanding_,
+                        model_, std::move(line_in_doubt), limits, outstanding_,
                         [this](const Identity& identity) { return is_known(identity); },
                         [this](std::string_view line, TimePoint now) { wire_.probe(line, now); }),
                     std::move(doubted));
@@ -157,7 +157,7 @@ Barrier::Limits Recovery::connect_limits() {
 // Reports whether the identity is that of the configured controller, or of the controller that was connected before.
 bool Recovery::is_known(const Identity& identity) const {
   const std::string& serial_number = profile_.serial_number.empty() ? trusted_ : profile_.serial_number;
-  return identity.model == profile_.model && (serial_number.empty() || identity.serial_number == serial_number);
+  return identity.model == model_.name() && (serial_number.empty() || identity.serial_number == serial_number);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -19,17 +19,18 @@
 #include "device/shot/line/second_reply.h"
 #include "device/shot/line/waiting_lines.h"
 #include "device/shot/line/wire.h"
-#include "device/shrc203/profile.h"
+#include "device/shot/profile.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Recovery {
  public:
   // `controllable`: the axes of the present connection. The referenced objects must outlive this one.
-  Recovery(const Profile& profile, Port& port, LineListener& listener, const Link& link, const LineTiming& timing,
-           const AxisSet& controllable, Completions& completions, Continuity& continuity, Exchange& exchange,
-           SecondReply& second_reply, WaitingLines& waiting, Wire& wire, Results& results)
-      : profile_(profile),
+  Recovery(const Model& model, const Profile& profile, Port& port, LineListener& listener, const Link& link,
+           const LineTiming& timing, const AxisSet& controllable, Completions& completions, Continuity& continuity,
+           Exchange& exchange, SecondReply& second_reply, WaitingLines& waiting, Wire& wire, Results& results)
+      : model_(model),
+        profile_(profile),
         port_(port),
         listener_(listener),
         link_(link),
@@ -75,6 +76,7 @@ class Recovery {
   bool write_open_stops(std::string_view heard, TimePoint now);
   void moved(TimePoint now);
 
+  const Model& model_;
   const Profile& profile_;
   Port& port_;
   LineListener& listener_;
@@ -95,4 +97,4 @@ class Recovery {
   std::string trusted_;    // serial number of the newest passed handshake; empty before the first
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 bool Reservations::allow(MotionId motion, Duration length, TimePoint now) const {
   return std::ranges::all_of(due_, [&](const auto& entry) {
@@ -22,4 +22,4 @@ std::optional<TimePoint> Reservations::next_expiry(TimePoint now) const {
   return next;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

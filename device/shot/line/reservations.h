@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "device/core/time.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 // Reservations has at most one entry for each path:
 //
@@ -29,4 +29,4 @@ class Reservations {
   std::map<MotionId, TimePoint> due_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 void Results::finish(const ExchangeResult& result, Outcome outcome, TimePoint now) {
   const std::optional<InFlight> done = exchange_.ended();
@@ -38,11 +38,11 @@ void Results::report(const InFlight& ended, const ExchangeResult& result, Outcom
 AxisSet Results::busy_in(const ExchangeRequest& request, const Reply& reply) const {
   AxisSet busy;
   const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
-  const auto readings = positions ? parse_positions(reply, controllable_) : std::nullopt;
+  const auto readings = positions ? parse_positions(model_, reply, controllable_) : std::nullopt;
   for (std::size_t axis = 0; readings && axis < readings->size(); ++axis) {
     if ((*readings)[axis].valid && (*readings)[axis].busy) busy.add(static_cast<int>(axis) + 1);
   }
   return busy;
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -7,18 +7,19 @@
 #include "device/shot/line/flood.h"
 #include "device/shot/line/line_listener.h"
 #include "device/shot/line/line_timing.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Results {
  public:
   using Outcome = ExchangeEnded::Outcome;
 
   // `controllable`: the axes of the present connection. The referenced objects must outlive this one.
-  Results(LineListener& listener, Exchange& exchange, Completions& completions, LineTiming& timing, Flood& flood,
-          const AxisSet& controllable)
-      : listener_(listener),
+  Results(const Model& model, LineListener& listener, Exchange& exchange, Completions& completions, LineTiming& timing,
+          Flood& flood, const AxisSet& controllable)
+      : model_(model),
+        listener_(listener),
         exchange_(exchange),
         completions_(completions),
         timing_(timing),
@@ -33,6 +34,7 @@ class Results {
  private:
   AxisSet busy_in(const ExchangeRequest& request, const Reply& reply) const;
 
+  const Model& model_;
   LineListener& listener_;
   Exchange& exchange_;
   Completions& completions_;
@@ -41,4 +43,4 @@ class Results {
   const AxisSet& controllable_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -5,11 +5,11 @@
 
 #include "device/core/time.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 struct SecondReply {
   bool possible = false;                   // a second reply to the newest line may follow
   std::optional<TimePoint> silence_until;  // nothing is sent before this time after a refused stop
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "device/core/guard.h"
-#include "device/shrc203/limits.h"
+#include "device/shot/limits.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 namespace {
 
-constexpr auto kLineBefore = commands::Question::previous_command, kSettling = commands::Question::ready;
+constexpr auto kLineBefore = LineQuestion::line_before, kSettling = LineQuestion::ready;
 
 bool asks_line_before(const ExchangeRequest& request) { return request.command.row->meaning == Meaning::line_before; }
 
@@ -59,9 +59,9 @@ std::optional<TimePoint> Sending::next_deadline(TimePoint now) const {
   return next;
 }
 
-void Sending::ask(commands::Question question, TimePoint now) {
+void Sending::ask(LineQuestion question, TimePoint now) {
   ExchangeRequest request;
-  request.command = commands::ask(question);
+  request.command = model_.ask(question);
   send(std::make_shared<Waiting>(Waiting{std::move(request), {}, now}), now);
 }
 
@@ -79,12 +79,12 @@ bool Sending::leaves_refills_alone(const ExchangeRequest& request, TimePoint now
   if (waiting_.size(Lane::path_refill) > 0) return false;
   if (reservations_.empty()) return true;
   Duration length = timing_.longest_exchange(request.command);
-  if (continuity_.due(now)) length += timing_.longest_exchange(commands::ask(kLineBefore));
+  if (continuity_.due(now)) length += timing_.longest_exchange(model_.ask(kLineBefore));
   return reservations_.allow(request.motion, length, now);
 }
 
 bool Sending::may_settle(TimePoint now) const {
-  return reservations_.empty() || reservations_.allow(0, timing_.longest_exchange(commands::ask(kSettling)), now);
+  return reservations_.empty() || reservations_.allow(0, timing_.longest_exchange(model_.ask(kSettling)), now);
 }
 
 // Reports whether ?:CMD must be sent before anything else. After a pause it shows whether the controller has restarted
@@ -127,9 +127,9 @@ void Sending::send(WaitingPtr waiting, TimePoint now) {
   if (!request.completes.empty()) completions_.started(request.completes, now);
   // A stop is written right after ?:CMD, without waiting for the reply to it.
   const bool after_question = request.lane == Lane::stop && link_.trusted() && continuity_.due(now);
-  if (after_question) wire_.probe(commands::text(kLineBefore), now);
+  if (after_question) wire_.probe(text(kLineBefore), now);
   const std::uint64_t number = wire_.begin(request, now);
   exchange_.written({std::move(waiting), now, now + limit + on_the_wire, number}, after_question);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

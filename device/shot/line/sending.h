@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "device/core/time.h"
+#include "device/shot/command/model.h"
 #include "device/shot/line/completions.h"
 #include "device/shot/line/continuity.h"
 #include "device/shot/line/exchange.h"
@@ -15,17 +16,19 @@
 #include "device/shot/line/second_reply.h"
 #include "device/shot/line/waiting_lines.h"
 #include "device/shot/line/wire.h"
-#include "device/shrc203/profile.h"
+#include "device/shot/profile.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Sending {
  public:
   // The referenced objects must outlive this one.
-  Sending(const Profile& profile, LineListener& listener, const Link& link, const LineTiming& timing,
-          Incoming& incoming, Completions& completions, const Continuity& continuity, const Reservations& reservations,
-          Exchange& exchange, const SecondReply& second_reply, WaitingLines& waiting, Wire& wire)
-      : profile_(profile),
+  Sending(const Model& model, const Profile& profile, LineListener& listener, const Link& link,
+          const LineTiming& timing, Incoming& incoming, Completions& completions, const Continuity& continuity,
+          const Reservations& reservations, Exchange& exchange, const SecondReply& second_reply, WaitingLines& waiting,
+          Wire& wire)
+      : model_(model),
+        profile_(profile),
         listener_(listener),
         link_(link),
         timing_(timing),
@@ -46,7 +49,7 @@ class Sending {
  private:
   bool can_send() const { return link_.port_open() && exchange_.idle(); }
   void send(WaitingPtr waiting, TimePoint now);
-  void ask(commands::Question question, TimePoint now);
+  void ask(LineQuestion question, TimePoint now);
   bool asks_first(TimePoint now) const;
   bool asks_now(const WaitingLines::Chosen& may_go, bool settle) const;
   bool may_send(const ExchangeRequest& request) const;
@@ -54,6 +57,7 @@ class Sending {
   bool may_settle(TimePoint now) const;
   bool line_is_coming(TimePoint now);
 
+  const Model& model_;
   const Profile& profile_;
   LineListener& listener_;
   const Link& link_;
@@ -68,4 +72,4 @@ class Sending {
   Wire& wire_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

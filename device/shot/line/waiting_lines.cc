@@ -8,7 +8,7 @@
 #include "device/core/guard.h"
 #include "device/shot/command/reply.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 bool WaitingLines::add(ExchangeRequest request, OneShot<ExchangeResult> answer, TimePoint now) {
   const auto refuse = [&answer](Problem problem) {
@@ -176,4 +176,4 @@ Problem WaitingLines::why_expired(const ExchangeRequest& request) const {
           .sent = line};
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

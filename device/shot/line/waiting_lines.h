@@ -15,7 +15,7 @@
 #include "device/shot/line/link.h"
 #include "device/shot/line/reservations.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class WaitingLines {
  public:
@@ -75,4 +75,4 @@ class WaitingLines {
   std::optional<Problem> sealed_;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

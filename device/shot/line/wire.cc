@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 std::uint64_t Wire::begin(const ExchangeRequest& request, TimePoint now) {
   write(request.command.line, ++exchanges_, &request, now);
@@ -32,4 +32,4 @@ void Wire::write(std::string_view line, std::uint64_t exchange, const ExchangeRe
   link_.write(bytes);
 }
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

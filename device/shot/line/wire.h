@@ -10,9 +10,9 @@
 #include "device/shot/line/exchange_request.h"
 #include "device/shot/line/line_listener.h"
 #include "device/shot/line/line_timing.h"
-#include "device/shrc203/stage.h"
+#include "device/shot/stage.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shot {
 
 class Wire {
  public:
@@ -41,4 +41,4 @@ class Wire {
   std::uint64_t exchanges_ = 0;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shot

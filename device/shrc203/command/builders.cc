@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "device/shrc203/command/command_table.h"
+
 namespace axisgate::shrc203::commands {
 namespace {
 
@@ -64,7 +66,7 @@ const Command& command_of(Question question) {
   static const std::vector<Command> commands = [] {
     std::vector<Command> all;
     for (const auto& asked : kAsked) {
-      auto command = parse_command(asked.line);
+      auto command = model().parse(asked.line);
       if (!command) std::abort();
       all.push_back(*std::move(command));
     }
@@ -129,9 +131,10 @@ Question question_of(Register reg) {
 }
 
 const CommandRow& setter_of(Register reg) {
-  const auto row = std::ranges::find_if(
-      command_table(), [reg](const CommandRow& one) { return one.reg == reg && !one.curve && reg != Register::none; });
-  if (row == command_table().end()) std::abort();
+  const auto row = std::ranges::find_if(model().commands(), [reg](const CommandRow& one) {
+    return one.reg == reg && !one.curve && reg != Register::none;
+  });
+  if (row == model().commands().end()) std::abort();
   return *row;
 }
 
@@ -140,12 +143,12 @@ Command set_setpoint(Register reg, const Amounts& amounts, const Speeds& speeds)
   arguments.axes(axes_of(amounts));
   for (const auto& [axis, pulses] : amounts) arguments.pulses(pulses);
   for (const auto& [axis, speed] : speeds) add_speed(arguments, speed);
-  return make_command(setter_of(reg), arguments);
+  return model().make(setter_of(reg), arguments);
 }
 
 Result<Command> set_curve(CurveForm form, const Arguments& arguments) {
   const auto row = std::ranges::find_if(
-      command_table(), [form](const CommandRow& one) { return one.reg == Register::ep && one.curve == form; });
+      model().commands(), [form](const CommandRow& one) { return one.reg == Register::ep && one.curve == form; });
   auto line = encode(*row, arguments);
   if (!line) return tl::unexpected(line.error());
   return Command{&*row, arguments, *std::move(line)};
@@ -155,56 +158,56 @@ Command set_jog(const Amounts& directions) {
   Arguments arguments;
   arguments.axes(axes_of(directions));
   for (const auto& [axis, direction] : directions) arguments.add("m", direction < 0 ? "-" : "+");
-  return make_command("J:", arguments);
+  return model().make("J:", arguments);
 }
 
 Command set_jog_speeds(const Amounts& speeds) {
   Arguments arguments;
   arguments.axes(axes_of(speeds));
   for (const auto& [axis, speed] : speeds) arguments.add("u", "F").add("spd", std::to_string(speed));
-  return make_command("JD:", arguments);
+  return model().make("JD:", arguments);
 }
 
-Command clear_setpoints(AxisSet axes) { return make_command("GC:", axes); }
+Command clear_setpoints(AxisSet axes) { return model().make("GC:", axes); }
 
-Command go(AxisSet axes) { return make_command("G:", axes); }
+Command go(AxisSet axes) { return model().make("G:", axes); }
 
-Command home(AxisSet axes) { return make_command("HRT:", axes); }
+Command home(AxisSet axes) { return model().make("HRT:", axes); }
 
-Command return_to_origin(AxisSet axes) { return make_command("ZRT:", axes); }
+Command return_to_origin(AxisSet axes) { return model().make("ZRT:", axes); }
 
-Command stop(AxisSet axes) { return make_command("L:", axes); }
+Command stop(AxisSet axes) { return model().make("L:", axes); }
 
-Command emergency_stop() { return make_command("L:E"); }
+Command emergency_stop() { return model().make("L:E"); }
 
 Command ask_saved(Saved kind, std::string number) {
-  return make_command(kind == Saved::place ? "PIT:GET" : "PAV:GET", Arguments().add("n", std::move(number)));
+  return model().make(kind == Saved::place ? "PIT:GET" : "PAV:GET", Arguments().add("n", std::move(number)));
 }
 
 Command go_to_saved(Saved kind, std::string number) {
-  return make_command(kind == Saved::place ? "PIT:GRT" : "PAV:GRT", Arguments().add("n", std::move(number)));
+  return model().make(kind == Saved::place ? "PIT:GRT" : "PAV:GRT", Arguments().add("n", std::move(number)));
 }
 
-Command set_speeds(const Speeds& speeds) { return make_command("D:", speed_arguments(speeds)); }
+Command set_speeds(const Speeds& speeds) { return model().make("D:", speed_arguments(speeds)); }
 
-Command set_origin_speeds(const Speeds& speeds) { return make_command("B:", speed_arguments(speeds)); }
+Command set_origin_speeds(const Speeds& speeds) { return model().make("B:", speed_arguments(speeds)); }
 
 bool can_be_set(const SpeedSetting& speed) {
-  return encode(command_row("D:"), speed_arguments({{1, speed}})).has_value();
+  return encode(model().row("D:"), speed_arguments({{1, speed}})).has_value();
 }
 
-Command set_outputs(int pattern) { return make_command("O:", Arguments().add("s", std::to_string(pattern))); }
+Command set_outputs(int pattern) { return model().make("O:", Arguments().add("s", std::to_string(pattern))); }
 
-Command clear_errors(AxisSet axes) { return make_command("BEC:", axes); }
+Command clear_errors(AxisSet axes) { return model().make("BEC:", axes); }
 
-Command stop_program() { return make_command("P:E"); }
+Command stop_program() { return model().make("P:E"); }
 
-Command leave_program_mode() { return make_command("P:H"); }
+Command leave_program_mode() { return model().make("P:H"); }
 
-Command leave_program_edit() { return make_command("P:OFF"); }
+Command leave_program_edit() { return model().make("P:OFF"); }
 
-Command leave_switches() { return make_command("MS:OFF"); }
+Command leave_switches() { return model().make("MS:OFF"); }
 
-Command ask_all_switches(int item) { return make_command("MS:GETK", Arguments().add("k", std::to_string(item))); }
+Command ask_all_switches(int item) { return model().make("MS:GETK", Arguments().add("k", std::to_string(item))); }
 
 }  // namespace axisgate::shrc203::commands

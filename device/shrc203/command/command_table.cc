@@ -1,28 +1,30 @@
-#include <algorithm>
-#include <cstdlib>
+#include "device/shrc203/command/command_table.h"
+
+#include <utility>
 #include <vector>
 
-#include "device/shot/command/command_row.h"
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203 {
+namespace {
 
-std::span<const CommandRow> command_table() {
-  static const std::vector<CommandRow> all = [] {
-    std::vector<CommandRow> table;
-    for (const auto part : {rows::questions(), rows::motion(), rows::arcs(), rows::settings(), rows::other_modes(),
-                            rows::saved_positions()}) {
-      table.insert(table.end(), part.begin(), part.end());
-    }
-    return table;
-  }();
-  return all;
+std::vector<CommandRow> all_rows() {
+  std::vector<CommandRow> table;
+  for (const auto part : {rows::questions(), rows::motion(), rows::arcs(), rows::settings(), rows::other_modes(),
+                          rows::saved_positions()}) {
+    table.insert(table.end(), part.begin(), part.end());
+  }
+  return table;
 }
 
-const CommandRow& command_row(std::string_view name) {
-  const auto row = std::ranges::find(command_table(), name, &CommandRow::name);
-  if (row == command_table().end()) std::abort();
-  return *row;
+// Manual 109) P:C, 110) P:T.
+const std::vector<Notice> kNotices = {{"COMP", ProgramNotice::Kind::ended}, {"TRIG", ProgramNotice::Kind::trigger}};
+
+}  // namespace
+
+const Model& model() {
+  static const Model only("SHRC-203", kAxisCount, all_rows(), kNotices);
+  return only;
 }
 
 }  // namespace axisgate::shrc203

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -45,7 +45,7 @@ constexpr std::array<stage::AdminCommand, 6> kAdminCommands = {{
 
 std::vector<stage::CommandInfo> list_commands() {
   std::vector<stage::CommandInfo> list;
-  for (const CommandRow& row : command_table()) list.push_back(info_of(row));
+  for (const CommandRow& row : model().commands()) list.push_back(info_of(row));
   return list;
 }
 

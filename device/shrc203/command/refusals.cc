@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "device/shrc203/command/command_table.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -74,11 +76,11 @@ std::optional<Problem> refusal_by(const CommandRow& row, AxisSet axes, const Sta
 }
 
 std::optional<Problem> start_refused_by(AxisSet axes, const State& state) {
-  return refusal_by(command_row("G:"), axes, state);
+  return refusal_by(model().row("G:"), axes, state);
 }
 
 std::optional<Problem> busy_shown(AxisSet axes, const State& state) {
-  return refusal_by(command_row("W:"), axes, state);
+  return refusal_by(model().row("W:"), axes, state);
 }
 
 std::optional<Problem> error_shown(AxisSet axes, const State& state) {

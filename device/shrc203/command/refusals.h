@@ -7,7 +7,7 @@
 
 #include "device/core/problem.h"
 #include "device/shot/command/axes.h"
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {

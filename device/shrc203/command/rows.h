@@ -9,6 +9,8 @@
 
 namespace axisgate::shrc203::rows {
 
+using namespace shot::rows;  // NOLINT(google-build-using-namespace)
+
 std::span<const CommandRow> questions();  // rows that change nothing
 std::span<const CommandRow> motion();     // rows that start, prepare or stop a motion
 std::span<const CommandRow> arcs();       // rows that prepare a motion along a curve

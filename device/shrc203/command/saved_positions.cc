@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "device/shot/command/command_row.h"
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 
@@ -15,11 +15,11 @@ PositionLines position_lines(const PositionSlot& slot) {
 }
 
 std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer, AxisSet controllable) {
-  const CommandRow& row = command_row(slot.place ? "PIT:GET" : "PAV:GET");
-  const auto reply = parse_reply(row, answer, controllable.count());
+  const CommandRow& row = model().row(slot.place ? "PIT:GET" : "PAV:GET");
+  const auto reply = parse_reply(model(), row, answer, controllable.count());
   std::map<int, std::int64_t> coordinates;
   if (!reply || reply->kind != Reply::Kind::data) return coordinates;
-  for (const auto& [axis, pulses] : by_axis(*reply, controllable)) coordinates[axis] = *parse_integer(pulses);
+  for (const auto& [axis, pulses] : by_axis(model(), *reply, controllable)) coordinates[axis] = *parse_integer(pulses);
   return coordinates;
 }
 

@@ -12,6 +12,7 @@
 #include "device/shot/command/command.h"
 #include "device/shot/command/reply.h"
 #include "device/shot/command/trigger_reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/command/trigger.h"
 
 namespace axisgate::shrc203 {
@@ -41,7 +42,7 @@ Result<Lines> only_line(Result<std::string> line) {
 }
 
 Result<Lines> only(std::string_view row, const Arguments& arguments = {}) {
-  return only_line(encode(command_row(row), arguments));
+  return only_line(encode(model().row(row), arguments));
 }
 
 // Builds the lines for each setting; the numbers are the manual's.
@@ -120,7 +121,7 @@ Result<Lines> LinesFor::operator()(const SetSpeeds& set) const {
   if (set.acceleration_ms) rows.emplace_back("DR:", of_one(set.axis).add("r", std::to_string(*set.acceleration_ms)));
   Lines lines;
   for (const auto& [row, arguments] : rows) {
-    auto line = encode(command_row(row), arguments);
+    auto line = encode(model().row(row), arguments);
     if (!line) return tl::unexpected(std::move(line.error()));
     lines.push_back(*std::move(line));
   }
@@ -183,11 +184,11 @@ std::span<const std::string_view> setting_questions() {
 }
 
 void read_setting(std::string_view question, std::string_view answer, AxisSet controllable, Settings& settings) {
-  const CommandRow& row = command_row(question);
-  const auto reply = parse_reply(row, answer, controllable.count());
+  const CommandRow& row = model().row(question);
+  const auto reply = parse_reply(model(), row, answer, controllable.count());
   if (!reply || reply->kind != Reply::Kind::data) return;
   if (row.reply.ends_with('*')) {
-    for (const auto& [axis, field] : by_axis(*reply, controllable)) {
+    for (const auto& [axis, field] : by_axis(model(), *reply, controllable)) {
       read_of_axis(question, field, settings.axes[axis]);
     }
   }
@@ -199,7 +200,7 @@ void read_setting(std::string_view question, std::string_view answer, AxisSet co
   if (question == "I:") settings.inputs = number_in(answer);
   if (question == "?:MODE") settings.mode = std::string(answer);
   if (question == "?:FMT") settings.format = std::string(answer);
-  if (question == "?:T") settings.trigger = parse_trigger(answer, kAllAxes);
+  if (question == "?:T") settings.trigger = parse_trigger(answer, model().axes());
 }
 
 }  // namespace axisgate::shrc203

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -32,12 +33,12 @@ std::pair<std::string_view, Arguments> written(const Trigger& trigger) {
 
 Command trigger_command(const Trigger& trigger) {
   const auto [name, arguments] = written(trigger);
-  return make_command(name, arguments);
+  return model().make(name, arguments);
 }
 
 Result<std::string> trigger_line(const Trigger& trigger) {
   const auto [name, arguments] = written(trigger);
-  return encode(command_row(name), arguments);
+  return encode(model().row(name), arguments);
 }
 
 std::optional<Trigger> trigger_of(const Command& command) {

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/planning/transaction_prediction.h"
 
 namespace axisgate::shrc203 {
@@ -64,7 +65,7 @@ Task<Result<Coordinates>> ask_for_position(Dialogue& dialogue, LiveMotionPtr liv
   if (!answer) co_return tl::unexpected(answer.error());
   Coordinates reported;
   if (answer->kind != Reply::Kind::data) co_return reported;
-  for (const auto& [axis, pulses] : by_axis(*answer, controllable)) reported[axis] = *parse_integer(pulses);
+  for (const auto& [axis, pulses] : by_axis(model(), *answer, controllable)) reported[axis] = *parse_integer(pulses);
   co_return reported;
 }
 

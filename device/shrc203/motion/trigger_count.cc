@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/planning/scan_plan.h"
 #include "device/shrc203/session/answers.h"
 
@@ -10,7 +11,7 @@ namespace axisgate::shrc203 {
 Task<std::optional<Decimal>> TriggerCount::read_scale_pulse(int axis, std::string caller) {
   const auto reported = co_await dialogue_.ask(Dialogue::Question::scale_resolution, Lane::motion, std::move(caller));
   if (!is_data(reported)) co_return std::nullopt;
-  const auto fields = by_axis(*reported.reply, store_.controllable());
+  const auto fields = by_axis(model(), *reported.reply, store_.controllable());
   const auto field = fields.find(axis);
   if (field == fields.end()) co_return std::nullopt;
   const auto resolution = parse_decimal(field->second);
@@ -25,7 +26,7 @@ Task<std::optional<std::int64_t>> TriggerCount::read(LiveMotionPtr live) {
   }
   const auto reported = co_await dialogue_.ask(Dialogue::Question::scale_counters, Lane::motion, live->context.who);
   if (!is_data(reported)) co_return std::nullopt;
-  const auto readings = parse_positions(*reported.reply, store_.controllable());
+  const auto readings = parse_positions(model(), *reported.reply, store_.controllable());
   if (!readings) co_return std::nullopt;
   co_return (*readings)[static_cast<std::size_t>(axis - 1)].pulses;
 }

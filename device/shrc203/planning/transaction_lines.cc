@@ -6,6 +6,7 @@
 
 #include "device/core/guard.h"
 #include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -121,7 +122,7 @@ Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) 
     return fail(Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax));
   }
   for (std::size_t index = 0; index < lines.size(); ++index) {
-    auto command = parse_command(lines[index]);
+    auto command = model().parse(lines[index]);
     if (!command && lines.size() > 1) command.error().message.insert(0, fmt::format("line {}: ", index + 1));
     if (!command) return tl::unexpected(command.error());
     commands.push_back(*std::move(command));
@@ -233,7 +234,7 @@ Command as_sent(const Command& command) {
   for (const auto& [letter, value] : command.arguments.values()) {
     if (letter != "a") without.add(letter, value);
   }
-  return make_command(*command.row, without);
+  return model().make(*command.row, without);
 }
 
 std::string picked(const Command& asked, const Reply& reply, AxisSet controllable) {

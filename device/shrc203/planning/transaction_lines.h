@@ -8,11 +8,12 @@
 #include "device/core/problem.h"
 #include "device/shot/command/command.h"
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {
 
-// Parses the lines and checks them as a whole. Fails as parse_command() does; with incomplete_transaction for a setting
+// Parses the lines and checks them as a whole. Fails as model().parse() does; with incomplete_transaction for a setting
 // without a start or a start without a setting; with invalid_request for too many lines or a stop among other lines.
 Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines);
 

@@ -9,6 +9,7 @@
 #include "device/shot/command/reply.h"
 #include "device/shot/line/line.h"
 #include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/recording/replay_moments.h"
 
@@ -22,7 +23,7 @@ using std::chrono::milliseconds;
 Result<Command> command_of(const Moment& moment) {
   std::string_view text = moment.text;
   if (text.ends_with("\r\n")) text.remove_suffix(2);
-  return parse_command(text);
+  return model().parse(text);
 }
 
 class Replay : LineListener, ByteLink {
@@ -38,8 +39,8 @@ class Replay : LineListener, ByteLink {
     std::string text;
   };
 
-  static Profile profile_of(const RecordingHeader& header) {
-    Profile profile;
+  static shot::Profile profile_of(const RecordingHeader& header) {
+    shot::Profile profile;
     profile.baud = header.baud;
     profile.reply_limit = header.reply_limit;
     return profile;
@@ -93,9 +94,9 @@ class Replay : LineListener, ByteLink {
 
   RecordingHeader header_;
   std::vector<Moment> moments_;
-  Profile profile_;
+  shot::Profile profile_;
   Executor executor_;
-  Line line_{profile_, *this, executor_, *this};
+  Line line_{model(), profile_, *this, executor_, *this};
   TimePoint now_{};
   bool up_ = false, suspected_ = false;
   std::uint64_t last_exchange_ = 0;

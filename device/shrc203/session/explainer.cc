@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/command/refusals.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/planning/transaction_lines.h"
@@ -122,8 +123,8 @@ Task<std::optional<Problem>> Explainer::refusal_by_settings(Command command, Axi
 
 Task<std::optional<Problem>> Explainer::refusal_by_stage(AxisSet axes, std::string caller) {
   const auto config = co_await dialogue_.ask(Dialogue::Question::auto_config, Lane::motion, std::move(caller));
-  const auto reported =
-      config.reply && !config.problem ? by_axis(*config.reply, store_.controllable()) : std::map<int, std::string>();
+  const auto reported = config.reply && !config.problem ? by_axis(model(), *config.reply, store_.controllable())
+                                                        : std::map<int, std::string>();
   const auto on = [&reported](int axis) { return reported.contains(axis) && reported.at(axis) == "1"; };
   if (!std::ranges::any_of(axes.list(), on)) co_return std::nullopt;
   co_return Problem{.reason = Reason::device_refused,

@@ -22,7 +22,7 @@ bool Handshake::is_expected(const Identity& identity) {
   const bool stop_open = !store_.state().open_stops.empty();
   const std::string why =
       fmt::format("{} {} answers, but {} {} {}{}", escaped(identity.model), escaped(identity.serial_number),
-                  profile.model, store_.expected_unit(), as_configured ? "is configured" : "was connected before",
+                  model().name(), store_.expected_unit(), as_configured ? "is configured" : "was connected before",
                   stop_open ? "; it may have received the open stop, and receives no further stops" : "");
   stop_writer_.other_unit_answered();
   line_.disconnect(why, tasks_.now());

@@ -8,6 +8,7 @@
 
 #include "device/core/guard.h"
 #include "device/shot/command/trigger_reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
@@ -31,7 +32,7 @@ Problem unreadable(commands::Question question, const ExchangeResult& result) {
 // Reports whether an axis would have moved faster than any axis can.
 bool Reader::implausible(const Reply& reply) const {
   const Positions before = store_.positions();
-  const auto readings = parse_positions(reply, store_.controllable());
+  const auto readings = parse_positions(model(), reply, store_.controllable());
   if (!readings) return false;
   const double seconds = std::chrono::duration<double>(tasks_.now() - store_.state().read).count();
   for (std::size_t i = 0; i < kAxisCount; ++i) {
@@ -93,7 +94,7 @@ Task<Result<void>> Reader::read_speeds(std::string caller) {
   const auto result = co_await dialogue_.ask(Dialogue::Question::speeds, Lane::motion, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable(Dialogue::Question::speeds, result));
-  for (const auto& [axis, field] : by_axis(*result.reply, store_.controllable())) {
+  for (const auto& [axis, field] : by_axis(model(), *result.reply, store_.controllable())) {
     if (const auto speed = parse_speed_setting(field)) store_.note_speeds({{axis, *speed}});
   }
   co_return Result<void>();
@@ -107,7 +108,7 @@ Task<Result<void>> Reader::read_scales(std::string caller) {
     if (result.reply->kind != Reply::Kind::data)
       co_return tl::unexpected(unreadable(Dialogue::Question::pulse_length, result));
     if (std::exchange(before, result.reply->text) != result.reply->text) continue;
-    for (const auto& [number, field] : by_axis(*result.reply, store_.controllable())) {
+    for (const auto& [number, field] : by_axis(model(), *result.reply, store_.controllable())) {
       const auto per_pulse = parse_decimal(field);
       auto scale = store_.state().axis(number).scale;
       if (!per_pulse || per_pulse->digits == 0 || !scale) continue;
@@ -125,7 +126,7 @@ Task<Result<void>> Reader::read_origin_speeds(std::string caller) {
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data)
     co_return tl::unexpected(unreadable(Dialogue::Question::origin_speeds, result));
-  for (const auto& [axis, field] : by_axis(*result.reply, store_.controllable())) {
+  for (const auto& [axis, field] : by_axis(model(), *result.reply, store_.controllable())) {
     store_.note_origin_speeds(axis, parse_speed_setting(field));
   }
   co_return Result<void>();
@@ -136,7 +137,7 @@ Task<Result<void>> Reader::read_excitation(std::string caller, Lane lane) {
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data)
     co_return tl::unexpected(unreadable(Dialogue::Question::excitation, result));
-  store_.note_excitation(by_axis(*result.reply, store_.controllable()));
+  store_.note_excitation(by_axis(model(), *result.reply, store_.controllable()));
   store_.publish();
   co_return Result<void>();
 }
@@ -160,7 +161,7 @@ Task<Result<void>> Reader::read_trigger(std::string caller) {
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data)
     co_return tl::unexpected(unreadable(Dialogue::Question::trigger, result));
-  store_.note_trigger(parse_trigger(result.reply->text, kAllAxes));
+  store_.note_trigger(parse_trigger(result.reply->text, model().axes()));
   store_.publish();
   co_return Result<void>();
 }

@@ -5,6 +5,7 @@
 
 #include "device/core/guard.h"
 #include "device/shot/command/trigger_reply.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/session/answers.h"
 #include "device/stage/own_questions.h"
@@ -53,7 +54,8 @@ bool SettingsReader::take(const Answers& answers) {
   std::optional<int> outputs;
   if (is_data(answers.outputs)) outputs = static_cast<int>(*parse_integer(answers.outputs.reply->text));
   store_.note_outputs(outputs);
-  store_.note_trigger(is_data(answers.trigger) ? parse_trigger(answers.trigger.reply->text, kAllAxes) : std::nullopt);
+  store_.note_trigger(is_data(answers.trigger) ? parse_trigger(answers.trigger.reply->text, model().axes())
+                                               : std::nullopt);
   const auto controllable = from_axis_setting(answers.axes.reply->text);
   const bool twice = answers.axes_again.reply->text == answers.axes.reply->text || !guarded(Guard::axes_twice);
   if (!controllable || !twice) return false;
@@ -64,13 +66,13 @@ bool SettingsReader::take(const Answers& answers) {
 }
 
 bool SettingsReader::take_of_axes(const Answers& answers, AxisSet controllable) {
-  const auto scales = by_axis(*answers.scale.reply, controllable),
-             speeds = by_axis(*answers.speeds.reply, controllable),
-             excited = by_axis(*answers.excitation.reply, controllable);
+  const auto scales = by_axis(model(), *answers.scale.reply, controllable),
+             speeds = by_axis(model(), *answers.speeds.reply, controllable),
+             excited = by_axis(model(), *answers.excitation.reply, controllable);
   for (const auto* fields : {&scales, &speeds, &excited}) {
     if (fields->size() != static_cast<std::size_t>(controllable.count())) return false;
   }
-  const auto origins = is_data(answers.origin_speeds) ? by_axis(*answers.origin_speeds.reply, controllable)
+  const auto origins = is_data(answers.origin_speeds) ? by_axis(model(), *answers.origin_speeds.reply, controllable)
                                                       : std::map<int, std::string>();
   store_.note_excitation(excited);
   for (const int axis : controllable.list()) {

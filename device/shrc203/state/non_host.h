@@ -8,7 +8,7 @@
 
 #include "device/core/problem.h"
 #include "device/core/violations.h"
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 

@@ -8,8 +8,8 @@
 
 #include "device/shot/command/axes.h"
 #include "device/shot/command/command.h"
-#include "device/shot/command/command_row.h"
 #include "device/shot/command/reply.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "device/core/guard.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/state/pending_restores.h"
 
 namespace axisgate::shrc203 {
@@ -37,7 +38,7 @@ std::string StateStore::remedy() const {
   if (!profile_.serial_number.empty()) {
     return "connect the configured unit again, or correct `serial_number` in the configuration";
   }
-  if (unit_.empty()) return fmt::format("connect a controller of the model {}", profile_.model);
+  if (unit_.empty()) return fmt::format("connect a controller of the model {}", model().name());
   return "connect the former unit again, or restart the daemon to accept this one";
 }
 
@@ -56,7 +57,7 @@ void StateStore::lost() {
 
 bool StateStore::is_expected(const Identity& identity) const {
   const std::string& serial_number = expected_unit();
-  return identity.model == profile_.model && (serial_number.empty() || identity.serial_number == serial_number);
+  return identity.model == model().name() && (serial_number.empty() || identity.serial_number == serial_number);
 }
 
 void StateStore::identified(const Identity& identity) {
@@ -114,7 +115,7 @@ void StateStore::note_homed(AxisSet axes) {
 }
 
 std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
-  const auto readings = parse_positions(reply, controllable());
+  const auto readings = parse_positions(model(), reply, controllable());
   if (!readings) return std::nullopt;
   Read read;
   Conditions::ByAxis shown;

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "device/shot/command/command_row.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::listing_test {
 namespace {
@@ -19,7 +19,7 @@ stage::CommandInfo listed(std::string_view name) {
   return found == list.end() ? stage::CommandInfo{} : *found;
 }
 
-TEST(Listing, HasTheWholeTable) { EXPECT_EQ(list_commands().size(), command_table().size()); }
+TEST(Listing, HasTheWholeTable) { EXPECT_EQ(list_commands().size(), model().commands().size()); }
 
 TEST(Listing, SaysWhatParametersMayBe) {
   const stage::CommandInfo trigger = listed("T:P");
@@ -37,7 +37,7 @@ TEST(Listing, SaysWhatParametersMayBe) {
 TEST(AdminCommands, EachBeginsACommand) {
   for (const auto& [name, request] : admin_commands()) {
     const auto begins = [&](const CommandRow& row) { return row.name.starts_with(name); };
-    EXPECT_TRUE(std::ranges::any_of(command_table(), begins)) << name;
+    EXPECT_TRUE(std::ranges::any_of(model().commands(), begins)) << name;
   }
   EXPECT_EQ(admin_commands().size(), 6u);
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace axisgate::shrc203::axes_test {
+namespace axisgate::shot::axes_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -22,7 +22,7 @@ TEST(AxisSet, IsASet) {
   EXPECT_THAT(AxisSet().list(), IsEmpty());
   EXPECT_TRUE(AxisSet().empty());
   EXPECT_THAT(k13.list(), ElementsAre(1, 3));
-  EXPECT_EQ(kAllAxes, k123);
+  EXPECT_EQ(kLetteredAxes, k123);
   EXPECT_EQ(k123 - k2, k13);
   EXPECT_EQ(k12 & k23, k2);
   EXPECT_EQ(k23.lowest(), 2);
@@ -118,4 +118,4 @@ TEST(Alphabets, TakeNothingElse) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::axes_test
+}  // namespace axisgate::shot::axes_test

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203::barrier_test {
+#include "device/shrc203/command/command_table.h"
+
+namespace axisgate::shot::barrier_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -21,7 +23,7 @@ class BarrierTest : public testing::Test {
  protected:
   Barrier barrier(std::string in_doubt) {
     return Barrier(
-        std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
+        shrc203::model(), std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
         [](const Identity& identity) { return identity.serial_number == "2106001001"; },
         [this](std::string_view line, TimePoint) { lines.emplace_back(line); });
   }
@@ -168,7 +170,7 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_EQ(owed.identities, 1);
   EXPECT_TRUE(it.on_line(kIdentity, at(520)));
   EXPECT_EQ(owed.identities, 0);
-  EXPECT_FALSE(settle_outstanding(owed, kIdentity)) << "no more than is owed";
+  EXPECT_FALSE(settle_outstanding(shrc203::model(), owed, kIdentity)) << "no more than is owed";
 }
 
 // Two stops in one barrier: a late answer to the ?:CMD from before the first stop says nothing about the second.
@@ -234,4 +236,4 @@ TEST_F(BarrierTest, AStopInBetweenBeginsItAnewWithoutTheEcho) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::barrier_test
+}  // namespace axisgate::shot::barrier_test

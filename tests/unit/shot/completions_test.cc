@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203::completions_test {
+namespace axisgate::shot::completions_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -12,15 +12,15 @@ const AxisSet kFirst = AxisSet::of(1), kSecond = AxisSet::of(2), kFirstTwo = Axi
 TimePoint after(int ms) { return TimePoint{} + milliseconds(ms); }
 
 TEST(Completions, AfterAConnectEveryAxisMayComplete) {
-  Completions completions;
+  Completions completions{3};
   EXPECT_EQ(completions.possible(), AxisSet());
   completions.connected();
-  EXPECT_EQ(completions.possible(), kAllAxes);
-  EXPECT_EQ(completions.outstanding(), kAllAxes);
+  EXPECT_EQ(completions.possible(), AxisSet::first(3));
+  EXPECT_EQ(completions.outstanding(), AxisSet::first(3));
 }
 
 TEST(Completions, PossibleFromTheStartOn) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kSecond, after(0));
   EXPECT_TRUE(completions.possible(2));
   EXPECT_FALSE(completions.possible(1));
@@ -29,7 +29,7 @@ TEST(Completions, PossibleFromTheStartOn) {
 
 // A chain reports a completion for each segment, so an axis may complete again after the first.
 TEST(Completions, StillPossibleAfterOneHasArrived) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.arrived(1);
   EXPECT_EQ(completions.possible(), kFirst);
@@ -37,7 +37,7 @@ TEST(Completions, StillPossibleAfterOneHasArrived) {
 }
 
 TEST(Completions, EndByAnExchangeWrittenTwoHundredMillisecondsAfterReady) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.answered(after(500));
   EXPECT_EQ(completions.possible(), kFirst) << "nothing was READY";
@@ -50,7 +50,7 @@ TEST(Completions, EndByAnExchangeWrittenTwoHundredMillisecondsAfterReady) {
 }
 
 TEST(Completions, TheFirstReadyCounts) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.ready(kFirst, after(1000));
   completions.ready(kFirst, after(1100));
@@ -58,7 +58,7 @@ TEST(Completions, TheFirstReadyCounts) {
 }
 
 TEST(Completions, BusyAgainTakesReadyBack) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.ready(kFirst, after(1000));
   completions.busy(kFirst);
@@ -68,7 +68,7 @@ TEST(Completions, BusyAgainTakesReadyBack) {
 }
 
 TEST(Completions, AnAxisThatMovesUnaskedMayComplete) {
-  Completions completions;
+  Completions completions{3};
   EXPECT_EQ(completions.busy(kSecond), kSecond);
   EXPECT_EQ(completions.outstanding(), kSecond);
   EXPECT_EQ(completions.busy(kSecond), AxisSet()) << "no news";
@@ -79,7 +79,7 @@ TEST(Completions, AnAxisThatMovesUnaskedMayComplete) {
 
 // READY this soon after the start may still describe the time before the start.
 TEST(Completions, ReadyRightAfterTheStartIsNotBelieved) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.ready(kFirst, after(149));
   EXPECT_EQ(completions.settles_from(kFirst), std::nullopt);
@@ -88,7 +88,7 @@ TEST(Completions, ReadyRightAfterTheStartIsNotBelieved) {
 }
 
 TEST(Completions, SettlesWhenTheLastAxisDoes) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirstTwo, after(0));
   completions.ready(kFirst, after(1000));
   EXPECT_EQ(completions.settles_from(kFirstTwo), std::nullopt);
@@ -99,7 +99,7 @@ TEST(Completions, SettlesWhenTheLastAxisDoes) {
 
 // A segment of the chain has started the axis again since it was READY; an answer that shows this does not settle it.
 TEST(Completions, AnAnswerThatShowsAnAxisBusyDoesNotSettleIt) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirstTwo, after(0));
   completions.ready(kFirstTwo, after(1000));
   completions.answered(after(2000), kFirst);
@@ -109,7 +109,7 @@ TEST(Completions, AnAnswerThatShowsAnAxisBusyDoesNotSettleIt) {
 }
 
 TEST(Completions, ANewStartBeginsAnew) {
-  Completions completions;
+  Completions completions{3};
   completions.started(kFirst, after(0));
   completions.arrived(1);
   completions.ready(kFirst, after(1000));
@@ -119,4 +119,4 @@ TEST(Completions, ANewStartBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::completions_test
+}  // namespace axisgate::shot::completions_test

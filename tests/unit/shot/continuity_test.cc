@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203::continuity_test {
+namespace axisgate::shot::continuity_test {
 
 void PrintTo(Continuity::Verdict verdict, std::ostream* out) {
   *out << (verdict == Continuity::Verdict::same ? "same" : verdict == Continuity::Verdict::open ? "open" : "foreign");
@@ -311,4 +311,4 @@ TEST_F(ContinuityTells, NotWhatWasSentAfterAPause) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::continuity_test
+}  // namespace axisgate::shot::continuity_test

@@ -1,4 +1,4 @@
-// Every phase of an exchange with every event, typed from the table in device/shrc203/README.md.
+// Every phase of an exchange with every event, typed from the table in device/shot/README.md.
 #include "device/shot/line/exchange.h"
 
 #include <gtest/gtest.h>
@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "device/shrc203/command/command_table.h"
 #include "tests/unit/core/transition_table.h"
 
-namespace axisgate::shrc203::exchange_test {
+namespace axisgate::shot::exchange_test {
 namespace {
 
 using testing_tables::Table;
@@ -40,7 +41,7 @@ class ExchangeTest : public testing::Test, public Violations {
   static InFlight line() { return {std::make_shared<Waiting>(), TimePoint{}, TimePoint{}, 7}; }
   std::unique_ptr<Barrier> barrier() {
     return std::make_unique<Barrier>(
-        "G:1", Barrier::Limits{}, outstanding, [](const Identity&) { return true; },
+        shrc203::model(), "G:1", Barrier::Limits{}, outstanding, [](const Identity&) { return true; },
         [](std::string_view, TimePoint) {});
   }
 
@@ -92,4 +93,4 @@ TEST_F(ExchangeTest, AnIllegalEventIsReportedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::exchange_test
+}  // namespace axisgate::shot::exchange_test

@@ -1,4 +1,4 @@
-// Every phase of the link with every event, typed from the table in device/shrc203/README.md.
+// Every phase of the link with every event, typed from the table in device/shot/README.md.
 #include "device/shot/line/link.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace axisgate::shrc203::link_test {
+namespace axisgate::shot::link_test {
 namespace {
 
 // Columns: port_opened, lost, flooded, stop_waits, identified, answer_doubted, barrier_passed, handshake_passed,
@@ -95,4 +95,4 @@ TEST(Link, WhatAPhaseMeansForTheLine) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::link_test
+}  // namespace axisgate::shot::link_test

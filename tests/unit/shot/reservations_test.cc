@@ -4,7 +4,7 @@
 
 #include "device/shrc203/limits.h"
 
-namespace axisgate::shrc203::reservations_test {
+namespace axisgate::shot::reservations_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -50,4 +50,4 @@ TEST(Reservations, APathHasOneAndGivesItBack) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::reservations_test
+}  // namespace axisgate::shot::reservations_test

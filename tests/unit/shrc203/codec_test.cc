@@ -4,17 +4,18 @@
 #include <string>
 
 #include "device/shot/command/command.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::codec_test {
 namespace {
 
 std::string sent(std::string_view written) {
-  const auto command = parse_command(written);
+  const auto command = model().parse(written);
   return command ? command->line : "refused: " + std::string(name(command.error().reason));
 }
 
 std::string row(std::string_view written) {
-  const auto command = parse_command(written);
+  const auto command = model().parse(written);
   return command ? std::string(command->row->name) : "refused: " + std::string(name(command.error().reason));
 }
 
@@ -95,11 +96,11 @@ TEST(Codec, RowsThatLookAlikeAreToldApart) {
 
 TEST(Codec, AxesOfALine) {
   const AxisSet two = AxisSet::of(1) | AxisSet::of(2);
-  EXPECT_EQ(parse_command("G:A")->axes(kAllAxes), two);
-  EXPECT_EQ(parse_command("G:W")->axes(two), two);
-  EXPECT_EQ(parse_command("G:")->axes(two), two);
-  EXPECT_EQ(parse_command("G")->axes(two), two);
-  EXPECT_EQ(parse_command("C:30")->axes(kAllAxes), AxisSet::of(3));
+  EXPECT_EQ(model().parse("G:A")->axes(kAllAxes), two);
+  EXPECT_EQ(model().parse("G:W")->axes(two), two);
+  EXPECT_EQ(model().parse("G:")->axes(two), two);
+  EXPECT_EQ(model().parse("G")->axes(two), two);
+  EXPECT_EQ(model().parse("C:30")->axes(kAllAxes), AxisSet::of(3));
 }
 
 TEST(Codec, OutOfRange) {
@@ -151,13 +152,13 @@ TEST(Codec, CharactersThatAreNeverSent) {
 
 TEST(Codec, CommandsOfOurOwnMaking) {
   const AxisSet two = AxisSet::of(1) | AxisSet::of(3);
-  EXPECT_EQ(make_command("G:", two).line, "G:B");
-  EXPECT_EQ(make_command("GC:", kAllAxes).line, "GC:D");
-  EXPECT_EQ(make_command("MP:", Arguments().axes(two).pulses(-5).pulses(70).speeds(1, 2, 3).speeds(4, 5, 6)).line,
+  EXPECT_EQ(model().make("G:", two).line, "G:B");
+  EXPECT_EQ(model().make("GC:", kAllAxes).line, "GC:D");
+  EXPECT_EQ(model().make("MP:", Arguments().axes(two).pulses(-5).pulses(70).speeds(1, 2, 3).speeds(4, 5, 6)).line,
             "MP:B-P5+P70,S1F2R3 S4F5R6");
-  EXPECT_EQ(make_command("KP:", Arguments().axes(two).pulses(0).pulses(-999999999).speeds(10, 20, 30)).line,
+  EXPECT_EQ(model().make("KP:", Arguments().axes(two).pulses(0).pulses(-999999999).speeds(10, 20, 30)).line,
             "KP:B+P0-P999999999,S10F20R30");
-  EXPECT_EQ(make_command("Q:S", Arguments().add("u", "P").add("c", "C")).line, "Q:SPC");
+  EXPECT_EQ(model().make("Q:S", Arguments().add("u", "P").add("c", "C")).line, "Q:SPC");
 }
 
 TEST(Codec, ArgumentsThatDoNotFit) {
@@ -165,40 +166,40 @@ TEST(Codec, ArgumentsThatDoNotFit) {
     const auto line = encode(into, arguments);
     return line ? Reason::unspecified : line.error().reason;
   };
-  const CommandRow& move = command_row("M:");
+  const CommandRow& move = model().row("M:");
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1))), Reason::invalid_request);
   EXPECT_EQ(reason(move, Arguments().axes(kAllAxes).pulses(1)), Reason::invalid_request);
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1).pulses(2)), Reason::invalid_request);
   EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1'000'000'000)), Reason::out_of_range);
-  EXPECT_EQ(reason(command_row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
+  EXPECT_EQ(reason(model().row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
 }
 
 // The manual's tables use these forms without a sign or a unit (manual 71), 77), 78), 90)).
 TEST(Codec, LooseFormsOfArcsAndSpeeds) {
-  EXPECT_EQ(parse_command("E:0A0M0.05-M0.05")->line, "E:0A0+M0.05-M0.05");
-  EXPECT_EQ(parse_command("EP:0A0M0.05-M0.05,S0.5F5R50")->line, "EP:0A0+M0.05-M0.05,S0.5F5R50");
-  EXPECT_EQ(parse_command("EP:1B0+P100-200D90,S100F1000R50")->line, "EP:1B0+P100-P200D90,S100F1000R50");
-  EXPECT_EQ(parse_command("E:0A0100-200")->line, "E:0A0+P100-P200");
-  EXPECT_EQ(parse_command("DS:A100 200").has_value(), false);
-  EXPECT_EQ(parse_command("DS:2100")->line, "DS:2F100");
+  EXPECT_EQ(model().parse("E:0A0M0.05-M0.05")->line, "E:0A0+M0.05-M0.05");
+  EXPECT_EQ(model().parse("EP:0A0M0.05-M0.05,S0.5F5R50")->line, "EP:0A0+M0.05-M0.05,S0.5F5R50");
+  EXPECT_EQ(model().parse("EP:1B0+P100-200D90,S100F1000R50")->line, "EP:1B0+P100-P200D90,S100F1000R50");
+  EXPECT_EQ(model().parse("E:0A0100-200")->line, "E:0A0+P100-P200");
+  EXPECT_EQ(model().parse("DS:A100 200").has_value(), false);
+  EXPECT_EQ(model().parse("DS:2100")->line, "DS:2F100");
 }
 
 // Angles are above 0 and at most 360, with or without a fraction, whatever the unit of the coordinates (manual 72)).
 TEST(Codec, AnglesHaveTheirOwnRange) {
-  EXPECT_EQ(parse_command("E:1A0+P100-P200D22.5")->line, "E:1A0+P100-P200D22.5");
-  EXPECT_EQ(parse_command("E:1A0+M1-M2D360")->line, "E:1A0+M1-M2D360");
+  EXPECT_EQ(model().parse("E:1A0+P100-P200D22.5")->line, "E:1A0+P100-P200D22.5");
+  EXPECT_EQ(model().parse("E:1A0+M1-M2D360")->line, "E:1A0+M1-M2D360");
   for (const char* line :
        {"E:1A0+P100-P200D0", "E:1A0+M1-M2D0.0", "E:1A0+M1-M2D360.01", "E:1A0+P1-P2D361", "E:4A0+P1-P2D360000.5+P1"}) {
-    ASSERT_FALSE(parse_command(line)) << line;
-    EXPECT_EQ(parse_command(line).error().reason, Reason::out_of_range) << line;
+    ASSERT_FALSE(model().parse(line)) << line;
+    EXPECT_EQ(model().parse(line).error().reason, Reason::out_of_range) << line;
   }
 }
 
 // A helix also moves axis 3 (manual 74)), and the parameter a of T:T is a time (manual 97)).
 TEST(Codec, AxesThatALetterDoesNotName) {
-  EXPECT_EQ(parse_command("E:3A0N2+P1-P2+P3")->axes(kAllAxes), kAllAxes);
-  EXPECT_EQ(parse_command("E:0A0+P1-P2")->axes(kAllAxes).count(), 2);
-  EXPECT_EQ(parse_command("T:T100")->axes(kAllAxes), kAllAxes);
+  EXPECT_EQ(model().parse("E:3A0N2+P1-P2+P3")->axes(kAllAxes), kAllAxes);
+  EXPECT_EQ(model().parse("E:0A0+P1-P2")->axes(kAllAxes).count(), 2);
+  EXPECT_EQ(model().parse("T:T100")->axes(kAllAxes), kAllAxes);
 }
 
 }  // namespace

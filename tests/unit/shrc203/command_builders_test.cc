@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::command_builders_test {
 namespace {
@@ -95,7 +96,7 @@ TEST(CommandBuilders, CurvesByTheirForm) {
   Arguments arc = circle;
   arc.add("ae", "400");
   EXPECT_EQ(commands::set_curve(CurveForm::arc_by_angle, arc).error().reason, Reason::out_of_range);
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     const bool curve = row.reg == Register::e || row.reg == Register::ep;
     ASSERT_EQ(row.curve.has_value(), curve) << row.name;
     if (!curve) continue;

@@ -1,7 +1,7 @@
 // Properties of the table's rows besides their lines, typed from the manual.
-#include <gtest/gtest.h>
+#include "device/shrc203/command/command_table.h"
 
-#include "device/shot/command/command_row.h"
+#include <gtest/gtest.h>
 
 namespace axisgate::shrc203::command_table_test {
 
@@ -9,10 +9,10 @@ namespace axisgate::shrc203::command_table_test {
 // no commands.
 TEST(CommandTable, QuestionsAreAnsweredOffHost) {
   for (const char* name : {"?:W", "?:D", "?:MODE", "?:CMD", "?:L", "*IDN?"}) {
-    EXPECT_TRUE(command_row(name).answered_off_host()) << name;
+    EXPECT_TRUE(model().row(name).answered_off_host()) << name;
   }
   for (const char* name : {"Q:S", "!:", "I:", "M:", "G:", "L:", "MODE:"}) {
-    EXPECT_FALSE(command_row(name).answered_off_host()) << name;
+    EXPECT_FALSE(model().row(name).answered_off_host()) << name;
   }
 }
 

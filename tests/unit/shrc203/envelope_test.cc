@@ -19,7 +19,7 @@ Quantity micrometers(std::int64_t digits) { return {{digits, 0}, Unit::micromete
 class EnvelopeTest : public testing::Test {
  protected:
   EnvelopeTest() {
-    for (const int number : kAllAxes.list()) {
+    for (const int number : AxisSet::first(3).list()) {
       auto& axis = state.axis(number);
       axis.controllable = true;
       axis.scale = Scale{{10, 0}, false};

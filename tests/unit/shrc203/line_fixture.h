@@ -14,6 +14,7 @@
 
 #include "device/core/task.h"
 #include "device/shot/line/line.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
@@ -40,7 +41,7 @@ class RecordingListener : public LineListener {
     std::vector<ExchangeRequest> stops;
     for (const std::string& text : open_stops) {
       ExchangeRequest request;
-      request.command = parse_command(text).value();
+      request.command = model().parse(text).value();
       request.lane = Lane::stop;
       stops.push_back(std::move(request));
     }
@@ -158,7 +159,7 @@ class LineFixture : public testing::Test {
 
   ExchangeRequest request(std::string_view text) const {
     ExchangeRequest one;
-    one.command = *parse_command(text);
+    one.command = *model().parse(text);
     one.lane = one.command.row->lane;
     one.caller = "somebody";
     one.not_after = now + std::chrono::seconds(10);
@@ -218,15 +219,15 @@ class LineFixture : public testing::Test {
   }
 
   TimePoint now{std::chrono::hours(1)};
-  Profile profile = [] {
-    Profile one;
+  shot::Profile profile = [] {
+    shot::Profile one;
     one.baud = 10'000;
     return one;
   }();
   RecordingLink link;
   RecordingListener listener;
   Executor executor;
-  Line line{profile, link, executor, listener};
+  Line line{model(), profile, link, executor, listener};
 };
 
 }  // namespace axisgate::shrc203

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203::line_timing_test {
@@ -50,9 +51,9 @@ TEST_F(PaceTest, OneSlowAnswerIsForgotten) {
 
 TEST_F(PaceTest, AnExchangeLastsAsLongAsItsLongestReply) {
   answered_in(milliseconds(7));
-  EXPECT_EQ(timing.longest_exchange(make_command("?:V")), milliseconds(3 + 2 + 64 + 2 + 7));
+  EXPECT_EQ(timing.longest_exchange(model().make("?:V")), milliseconds(3 + 2 + 64 + 2 + 7));
   // The answer is OK_D or NG; after NG comes ?:CMD, which is answered with the line.
-  EXPECT_EQ(timing.longest_exchange(make_command("G:", AxisSet::of(1))),
+  EXPECT_EQ(timing.longest_exchange(model().make("G:", AxisSet::of(1))),
             milliseconds(3 + 2 + 4 + 2 + 7) + milliseconds(5 + 2 + 3 + 2 + 7));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::registers_test {
 namespace {
@@ -17,7 +18,7 @@ const AxisSet kAll = kAllAxes;
 std::string_view question_of(Register reg) { return commands::text(commands::question_of(reg)); }
 
 Reply reply_of(std::string_view question, std::string_view line, AxisSet controllable = kAll) {
-  auto reply = parse_reply(command_row(question), line, controllable.count());
+  auto reply = parse_reply(model(), model().row(question), line, controllable.count());
   EXPECT_TRUE(reply) << question << " " << line;
   return reply.value_or(Reply{});
 }

@@ -4,13 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "device/shrc203/command/command_table.h"
+
 namespace axisgate::shrc203::reply_test {
 namespace {
 
 using testing::ElementsAre;
 
 std::optional<Reply> parse(std::string_view row, std::string_view line, int axes = 3) {
-  return parse_reply(command_row(row), line, axes);
+  return parse_reply(model(), model().row(row), line, axes);
 }
 bool fits(std::string_view row, std::string_view line, int axes = 3) { return parse(row, line, axes).has_value(); }
 
@@ -30,37 +32,37 @@ TEST(Reply, OnlyPrebufferCommandsAreAnsweredByOkD) {
 }
 
 TEST(Reply, QuestionsAreNotAnsweredByOk) {
-  for (const auto& row : command_table()) {
+  for (const auto& row : model().commands()) {
     if (row.effect != Effect::question) continue;
-    EXPECT_FALSE(parse_reply(row, "OK", 3)) << row.name;
-    EXPECT_TRUE(parse_reply(row, "NG", 3)) << row.name;
-    EXPECT_TRUE(parse_reply(row, "NG_I", 3)) << row.name;
+    EXPECT_FALSE(parse_reply(model(), row, "OK", 3)) << row.name;
+    EXPECT_TRUE(parse_reply(model(), row, "NG", 3)) << row.name;
+    EXPECT_TRUE(parse_reply(model(), row, "NG_I", 3)) << row.name;
   }
 }
 
 // Design: these rows are matched by grammar alone, so none of their answers may be a bare axis number.
 TEST(Reply, RowsSeparatedByGrammarAreNeverABareAxisNumber) {
-  for (const auto& row : command_table()) {
+  for (const auto& row : model().commands()) {
     if (row.separation != Separation::grammar) continue;
-    for (const char* number : {"1", "2", "3"}) EXPECT_FALSE(parse_reply(row, number, 1)) << row.name;
+    for (const char* number : {"1", "2", "3"}) EXPECT_FALSE(parse_reply(model(), row, number, 1)) << row.name;
     EXPECT_FALSE(bare_number_range(row)) << row.name;
   }
 }
 
 // With three axes the answers of these rows contain commas, whatever their values.
 TEST(Reply, RowsAskedForAllAxesHaveCommas) {
-  for (const auto& row : command_table()) {
+  for (const auto& row : model().commands()) {
     if (row.separation != Separation::all_axes) continue;
-    for (const char* number : {"1", "2", "3"}) EXPECT_FALSE(parse_reply(row, number, 3)) << row.name;
+    for (const char* number : {"1", "2", "3"}) EXPECT_FALSE(parse_reply(model(), row, number, 3)) << row.name;
   }
 }
 
 TEST(Reply, RangesOfBareNumbers) {
-  EXPECT_EQ(bare_number_range(command_row("?:SLEEP"))->maximum, 1);
-  EXPECT_EQ(bare_number_range(command_row("?:AXIS"))->maximum, 6);
-  EXPECT_EQ(bare_number_range(command_row("I:"))->maximum, 63);
-  EXPECT_EQ(bare_number_range(command_row("?:W"))->maximum, 2550);
-  EXPECT_EQ(bare_number_range(command_row("?:C"))->minimum, 0);
+  EXPECT_EQ(bare_number_range(model().row("?:SLEEP"))->maximum, 1);
+  EXPECT_EQ(bare_number_range(model().row("?:AXIS"))->maximum, 6);
+  EXPECT_EQ(bare_number_range(model().row("I:"))->maximum, 63);
+  EXPECT_EQ(bare_number_range(model().row("?:W"))->maximum, 2550);
+  EXPECT_EQ(bare_number_range(model().row("?:C"))->minimum, 0);
 }
 
 TEST(Reply, NumbersInTheirRange) {
@@ -123,7 +125,7 @@ TEST(Reply, CutOrDamagedAnswersAreNone) {
 }
 
 TEST(Reply, Positions) {
-  const auto readings = parse_positions(*parse("Q:S", "P+100,P-2000,P3000,80,1,4,R,B,B"), kAllAxes);
+  const auto readings = parse_positions(model(), *parse("Q:S", "P+100,P-2000,P3000,80,1,4,R,B,B"), kAllAxes);
   ASSERT_TRUE(readings);
   EXPECT_EQ((*readings)[0].pulses, 100);
   EXPECT_EQ((*readings)[1].pulses, -2000);
@@ -136,18 +138,19 @@ TEST(Reply, Positions) {
 
 // Manual 5): an invalid axis replies 0 and D.
 TEST(Reply, PositionsOfInvalidAxes) {
-  const auto kept = parse_positions(*parse("Q:S", "P+1,0,P+3,1,0,1,R,D,R", 2), AxisSet::of(1) | AxisSet::of(3));
+  const auto kept =
+      parse_positions(model(), *parse("Q:S", "P+1,0,P+3,1,0,1,R,D,R", 2), AxisSet::of(1) | AxisSet::of(3));
   ASSERT_TRUE(kept);
   EXPECT_FALSE((*kept)[1].valid);
   EXPECT_EQ((*kept)[2].pulses, 3);
-  const auto left_out = parse_positions(*parse("Q:S", "P+1,P+3,1,1,R,R", 2), AxisSet::of(1) | AxisSet::of(3));
+  const auto left_out = parse_positions(model(), *parse("Q:S", "P+1,P+3,1,1,R,R", 2), AxisSet::of(1) | AxisSet::of(3));
   ASSERT_TRUE(left_out);
   EXPECT_FALSE((*left_out)[1].valid);
   EXPECT_EQ((*left_out)[2].pulses, 3);
 }
 
 TEST(Reply, PositionsInAnotherUnitAreNotTakenForPulses) {
-  EXPECT_FALSE(parse_positions(*parse("Q:S", "U+1,U+2,U+3,1,1,1,R,R,R"), kAllAxes));
+  EXPECT_FALSE(parse_positions(model(), *parse("Q:S", "U+1,U+2,U+3,1,1,1,R,R,R"), kAllAxes));
 }
 
 TEST(Reply, Identity) {

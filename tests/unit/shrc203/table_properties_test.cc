@@ -15,8 +15,8 @@
 
 #include "device/shot/command/axes.h"
 #include "device/shot/command/command.h"
-#include "device/shot/command/command_row.h"
 #include "device/shot/command/pattern.h"
+#include "device/shrc203/command/command_table.h"
 #include "tests/unit/shrc203/table_samples.h"
 
 namespace axisgate::shrc203::table_properties_test {
@@ -32,7 +32,7 @@ using Complaint = std::optional<std::string>;
 
 // Returns nullopt if `written` is read as the row with the sample's arguments, and sent as the sample's line.
 Complaint check_reading(const CommandRow& row, const Sample& sample, std::string_view written) {
-  const auto command = parse_command(written);
+  const auto command = model().parse(written);
   if (!command) return fmt::format("\"{}\" is refused: {}", written, command.error().message);
   if (command->row->name != row.name) return fmt::format("\"{}\" is read as {}", written, command->row->name);
   if (command->arguments != sample.arguments()) return fmt::format("\"{}\" is read otherwise", written);
@@ -58,7 +58,7 @@ std::string loosened(std::string_view line, SampleGenerator& random) {
 }
 
 Complaint check_claims(const CommandRow& row, const Sample& sample) {
-  for (const CommandRow& other : command_table()) {
+  for (const CommandRow& other : model().commands()) {
     if (other.name != row.name && decode(other, sample.line)) return fmt::format("{} claims it as well", other.name);
   }
   return {};
@@ -71,7 +71,7 @@ Complaint check_refused(const CommandRow& row, const Sample& sample, std::size_t
   const auto line = encode(row, wrong.arguments());
   if (line) return fmt::format("{} as {} is encoded", value, wrong.values[which].first);
   if (line.error().reason != Reason::out_of_range) return fmt::format("{}: {}", value, line.error().message);
-  const auto command = parse_command(wrong.line);
+  const auto command = model().parse(wrong.line);
   if (command) return fmt::format("\"{}\" is read as {}", wrong.line, command->row->name);
   const bool shaped = std::ranges::all_of(value, [](unsigned char c) { return std::isdigit(c) || c == '.'; });
   if (shaped && command.error().reason != Reason::out_of_range) {
@@ -113,7 +113,7 @@ Complaint check_pulses(const CommandRow& row, const Sample& sample) {
 // Runs each row's trials until the first failure: one failure a row is enough.
 template <class Check>
 void for_every_row(int trials, Check check) {
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     for (int trial = 0; trial < trials; ++trial) {
       SampleGenerator random(row, kSeed + static_cast<std::uint64_t>(row.section * kTrials + trial));
       const Sample sample = random.sample();
@@ -151,7 +151,7 @@ TEST(TableProperties, PulsesBesideTheirRangeAreRefused) {
 
 // Each parameter that people see can be given, and has a range or choices.
 TEST(TableProperties, ParametersAreThoseOfTheFormat) {
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     for (const Parameter& parameter : row.parameters) {
       EXPECT_NE(row.format.find(fmt::format("<{}>", parameter.letter)), std::string_view::npos)
           << row.name << ' ' << parameter.letter;
@@ -163,7 +163,7 @@ TEST(TableProperties, ParametersAreThoseOfTheFormat) {
 }
 
 TEST(TableProperties, AWayOfAxis3MovesAxis3) {
-  for (const CommandRow& row : command_table()) {
+  for (const CommandRow& row : model().commands()) {
     EXPECT_EQ(row.third_axis, row.format.find("<z>") != std::string_view::npos) << row.name;
   }
 }

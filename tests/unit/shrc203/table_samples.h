@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "device/shot/command/command_row.h"
 #include "device/shot/command/pattern.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
 

@@ -5,15 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
+
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::transaction_prediction_test {
 namespace {
 
 using testing::ElementsAre;
-
 using Lines = std::vector<std::string>;
 constexpr auto kUnknown = std::nullopt;
 
@@ -41,7 +41,7 @@ class ForecastTest : public testing::Test {
     TransactionPrediction forecast(envelope, start, speeds, state.controllable());
     Outcome outcome;
     for (const auto& line : lines) {
-      const auto command = parse_command(line);
+      const auto command = model().parse(line);
       if (!command) ADD_FAILURE() << line << ": " << command.error().message;
       outcome.result = command ? forecast.add(*command) : Result<void>();
       outcome.at = forecast.at();

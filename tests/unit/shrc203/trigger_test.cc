@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "device/shot/command/trigger_reply.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::trigger_test {
 namespace {
@@ -11,18 +12,18 @@ namespace {
 using Target = Trigger::Target;
 
 TEST(Trigger, IsReadAsTheManualShowsIt) {
-  EXPECT_EQ(parse_trigger("0,1,1000", kAllAxes), (Trigger{Target::drive_pulses, 1, 1000}));
-  EXPECT_EQ(parse_trigger("1,20", kAllAxes), (Trigger{Target::timer, 0, 20}));
-  EXPECT_EQ(parse_trigger("NS", kAllAxes), Trigger{});
-  EXPECT_EQ(parse_trigger("2,3,30000", kAllAxes), (Trigger{Target::scale_plus, 3, 30'000}));
-  EXPECT_EQ(parse_trigger("3,2,-100", kAllAxes), (Trigger{Target::scale_minus, 2, 100}));
-  EXPECT_EQ(parse_trigger("3,2,100", kAllAxes), (Trigger{Target::scale_minus, 2, 100}));
+  EXPECT_EQ(parse_trigger("0,1,1000", model().axes()), (Trigger{Target::drive_pulses, 1, 1000}));
+  EXPECT_EQ(parse_trigger("1,20", model().axes()), (Trigger{Target::timer, 0, 20}));
+  EXPECT_EQ(parse_trigger("NS", model().axes()), Trigger{});
+  EXPECT_EQ(parse_trigger("2,3,30000", model().axes()), (Trigger{Target::scale_plus, 3, 30'000}));
+  EXPECT_EQ(parse_trigger("3,2,-100", model().axes()), (Trigger{Target::scale_minus, 2, 100}));
+  EXPECT_EQ(parse_trigger("3,2,100", model().axes()), (Trigger{Target::scale_minus, 2, 100}));
 }
 
 TEST(Trigger, WhatNoTriggerCanBeIsNone) {
   for (const char* answer : {"", "OK", "0", "0,1", "1", "1,1,20", "4,1,20", "-1,1,20", "0,4,1000", "0,0,1000", "0,1,1",
                              "0,1,30001", "1,0", "1,10001", "0,1,1000,", "0,,1000", "0,1,-5", "2,1,x"}) {
-    EXPECT_EQ(parse_trigger(answer, kAllAxes), std::nullopt) << answer;
+    EXPECT_EQ(parse_trigger(answer, model().axes()), std::nullopt) << answer;
   }
 }
 
@@ -39,8 +40,8 @@ TEST(Trigger, ALineTellsWhatItSets) {
                                  Trigger{Target::scale_plus, 1, 7}, Trigger{Target::scale_minus, 2, 30'000}}) {
     EXPECT_EQ(trigger_of(trigger_command(trigger)), trigger);
   }
-  EXPECT_EQ(trigger_of(make_command("T:M")), std::nullopt);
-  EXPECT_EQ(trigger_of(make_command("?:T")), std::nullopt);
+  EXPECT_EQ(trigger_of(model().make("T:M")), std::nullopt);
+  EXPECT_EQ(trigger_of(model().make("?:T")), std::nullopt);
 }
 
 }  // namespace
