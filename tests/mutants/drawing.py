@@ -8,7 +8,7 @@ import tarfile
 
 import sites
 
-FOLDERS = ("device/core", "device/use", "device/jobs", "device/shrc203", "device/rml1", "server/access")
+FOLDERS = ("device/core", "device/use", "device/jobs", "device/shot", "device/shrc203", "device/rml1", "server/access")
 # The simulator is no product, and the switch of the guards is there for tests.
 _LEFT_OUT = ("device/shrc203/simulator/", "device/core/guard.h", "device/jobs/guard.h")
 

@@ -27,9 +27,9 @@ _HOLDERS = ("optional", "vector", "deque", "list", "array", "set", "map", "pair"
 _FLAGS = ("bool", "optional<TimePoint>", "optional<Problem>")
 
 _SIMULATOR = "device/shrc203/simulator/"
-_COMMAND_ROOM = re.compile(r"device/shrc203/(?:command/|(?:rows\w*|command_table\w*|codec)\.(?:h|cc)$)")
+_COMMAND_ROOM = re.compile(r"device/(?:shrc203|shot)/(?:command/|(?:rows\w*|command_table\w*|codec)\.(?:h|cc)$)")
 _COMMAND_NAME = re.compile(r"(?:[?!*]?[A-Z]{1,5}:|\?:[A-Z]|!:|\*IDN\?)\S*")
-_TAKES_COMMAND_NAME = re.compile(r"\b(?:make_command|command_row)\s*\(\s*$")
+_TAKES_COMMAND_NAME = re.compile(r"\bmodel\(\)\.(?:make|row)\s*\(\s*$")
 _LINK_WRITE = re.compile(
     r"\b(?:state_|state)\s*(?:\.|->)\s*link\s*=(?!=)|\b(?:state_|link_)\s*=(?!=)[^;]*\bLinkState\b"
 )

@@ -16,21 +16,22 @@ _MILL_SIMULATOR = "device/rml1/simulator/"
 # Of the gateway's side the simulated mill knows the figures of machines alone.
 _MILL_DATA = ("device/rml1/machine/profile.h", "device/rml1/machine/profile_files.h",
               "device/rml1/machine/known_machine.h", "device/rml1/language/dialect.h")
-_GATEWAY_PARSERS = ("device/shot/command/command_row.h", "device/shot/command/command.h")
+_GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shot/command/model.h", "device/shot/command/command.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
 FLOORS = {
-    "device/core": (0,), "device/config": (0,), "device/use": (1, 0), "device/stage": (1, 1), "device/jobs": (1, 1), "device/*": (1, 2),
-    "device": (1, 3),
+    "device/core": (0,), "device/config": (0,), "device/use": (1, 0), "device/stage": (1, 1), "device/jobs": (1, 1),
+    "device/shot": (1, 2), "device/*": (1, 3), "device": (1, 4),
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
     "server/spool": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
     "server": (3,), "server/api": (4,), "server/proto": (5,), "server/rpc": (6, 0), "server/doors": (6, 1), "clients": (7,), "tests": (8,),
 }
-# The rooms of a controller: what each is for stands in device/shrc203/README.md.
-_CONTROLLER = "device/shrc203/"
-ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "state": 4, "session": 5, "motion": 6,
-          "transaction": 7}
+# The rooms of a controller, and of its family: the README of each folder says what they are for.
+ROOMS = {
+    "device/shot/": {"command": 1, "line": 2},
+    "device/shrc203/": {"command": 1, "recording": 3, "planning": 3, "state": 4, "session": 5, "motion": 6, "transaction": 7},
+}
 _FACE = ("controller.h", "controller.cc", "kind.h", "kind.cc")
 # Join controller and simulator for those who choose a kind by its name.
 _KIND = "device/shrc203/kind.cc"
@@ -53,20 +54,21 @@ def room_of(path):
 
 
 def controller_room_of(path):
-    """The floor and the room within device/shrc203, or nothing for what lies elsewhere and for the simulator."""
-    if not path.startswith(_CONTROLLER) or path.startswith(_SIMULATOR):
+    """The floor and the room within a folder with rooms, or nothing for what lies elsewhere and for the simulator."""
+    controller = next((folder for folder in ROOMS if path.startswith(folder)), None)
+    if not controller or path.startswith(_SIMULATOR):
         return None
-    *folders, name = path[len(_CONTROLLER):].split("/")
+    *folders, name = path[len(controller):].split("/")
     if not folders:
-        return (8, "face") if name in _FACE else (0, "types")
-    return ROOMS.get(folders[0], 9), folders[0]
+        return (8, controller) if name in _FACE else (0, controller + "types")
+    return ROOMS[controller].get(folders[0], 9), controller + folders[0]
 
 
 def may_include(source, target):
     if (source, target) in _EXCEPTIONS or target in _FOR_ALL_OF_SERVER and source.startswith("server/"):
         return True
     here, there = controller_room_of(source), controller_room_of(target)
-    if here and there:
+    if here and there and source.split("/")[1] == target.split("/")[1]:
         return here == there or there[0] < here[0]
     here, there = room_of(source), room_of(target)
     if not here or not there or here == there or there[0] < here[0]:

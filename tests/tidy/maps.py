@@ -97,9 +97,9 @@ def _check_floors(page, folders):
         else:
             top[folder if parent == "server" else posixpath.basename(folder)] = floor
     top |= {"server": server, "clients": includes.FLOORS["clients"]}
-    controller = {room or "types": floor for room, floor in includes.ROOMS.items()}
+    family, controller = ({"types": 0} | rooms for rooms in includes.ROOMS.values())
     words = " ".join(page.content.split())
-    for line in map(in_a_line, (top, rooms, controller)):
+    for line in map(in_a_line, (top, rooms, family, controller)):
         if line not in words:
             yield page.finding(1, "map-floors", f"the page does not say: {line}", "write the floors of includes.py")
 

@@ -188,12 +188,12 @@ class SimulatorApart(Tree):
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/machine/profile.h", "simulator-apart")
 
     def test_the_simulator_does_not_know_the_table(self):
-        for target in ("device/shot/command/command_row.h", "device/shot/command/command.h"):
+        for target in ("device/shrc203/command/command_table.h", "device/shot/command/command.h"):
             self.assert_include("device/shrc203/simulator/a.cc", target, "simulator-apart")
             self.assert_include("device/shrc203/simulator/program/a.cc", target, "simulator-apart")
 
     def test_each_side_may_use_its_own(self):
-        self.assert_include("device/shot/line/a.cc", "device/shot/command/command_row.h")
+        self.assert_include("device/shot/line/a.cc", "device/shrc203/command/command_table.h")
         self.assert_include("device/shrc203/simulator/a.cc", "device/shrc203/simulator/options.h")
 
 
