@@ -40,7 +40,7 @@ class Shrc203 final : public stage::Kind {
 
   std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const Words& settings, ByteLink& link,
                                                    EventSink& events, Permission& permission) const override {
-    Profile own{{profile}};
+    Profile own(profile);
     own.busy_scope = scope(settings, "busy_scope");
     own.prebuffer_scope = scope(settings, "prebuffer_scope");
     own.wait_for_inputs = is(settings, "wait_for_inputs", "true");

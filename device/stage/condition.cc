@@ -49,9 +49,6 @@ constexpr std::array kRows = {
     Row{Condition::format, "format", "command format", "command format"},
 };
 
-// Bits of manual 5) Q:S that are not conditions: normal, and an error in the last command.
-constexpr ConditionBits kNormal = 1, kCommandError = 2;
-
 constexpr auto kReported = [] {
   std::array<Condition, std::ranges::count(kRows, true, &Row::reported)> reported{};
   std::size_t count = 0;
@@ -59,12 +56,6 @@ constexpr auto kReported = [] {
     if (row.reported) reported[count++] = row.condition;
   }
   return reported;
-}();
-
-constexpr ConditionBits kErrors = [] {
-  ConditionBits errors = 0;
-  for (int number = 3; number <= 15; ++number) errors |= bit_of(static_cast<Condition>(number));
-  return errors;
 }();
 
 const Row* row_of(Condition condition) {
@@ -85,12 +76,6 @@ Condition condition_named(std::string_view name) {
 }
 
 std::span<const Condition> reported_conditions() { return kReported; }
-
-ConditionBits conditions_in(std::uint32_t status) {
-  ConditionBits conditions = status & ~(kNormal | kCommandError) & (bit_of(Condition::origin_sensor) * 2 - 1);
-  const bool explained = (status & (kNormal | kCommandError | kErrors)) != 0;
-  return explained ? conditions : conditions | bit_of(Condition::unnamed_error);
-}
 
 std::vector<Condition> listed(ConditionBits conditions) {
   std::vector<Condition> list;

@@ -11,7 +11,7 @@
 
 namespace axisgate::stage {
 
-// Values up to 25 are the bit numbers of manual 5) Q:S. Files and the API use them, so they must never change.
+// Files and the API use the values, so they must never change.
 enum class Condition {
   unnamed_error = 1,  // bit 1 is off, and no other bit explains it: S9, for instance
   scale_error = 3,
@@ -37,9 +37,9 @@ enum class Condition {
   ccw_software_limit = 23,
   near_sensor = 24,
   origin_sensor = 25,
-  motor_off = 30,  // manual 33) ?:C
-  mode = 31,       // not HOST (manual 37) ?:MODE)
-  format = 32,     // not SHOT/FC (manual 38) ?:FMT)
+  motor_off = 30,
+  mode = 31,    // not the mode for programs
+  format = 32,  // not the command format that the gateway speaks
 };
 
 // Returns the name: "emergency_stop"; "condition_77" if the number has no name.
@@ -53,8 +53,6 @@ std::span<const Condition> reported_conditions();
 // A set of conditions: bit n - 1 is the condition with number n.
 using ConditionBits = std::uint32_t;
 constexpr ConditionBits bit_of(Condition condition) { return ConditionBits{1} << (static_cast<int>(condition) - 1); }
-// Returns the conditions that a status of manual 5) Q:S shows.
-ConditionBits conditions_in(std::uint32_t status);
 std::vector<Condition> listed(ConditionBits conditions);
 
 // Describes the condition: "emergency stop", "CW limit sensor on".

@@ -11,8 +11,6 @@
 namespace axisgate::stage {
 namespace {
 
-constexpr std::int64_t kPulsesMax = 999'999'999;
-
 std::string for_whom(const std::string& whose) { return whose.empty() ? "" : fmt::format(" for {}", whose); }
 
 }  // namespace
@@ -55,7 +53,7 @@ Result<void> Envelope::check_stage(int axis) const {
   const auto& reported = state_.axis(axis).scale;
   if (!stage || !reported || *reported == stage->pulse || !guarded(Guard::stage_of_profile)) return {};
   return fail_on(axis, Reason::identity_mismatch,
-                 fmt::format("a pulse of {} is {} by the controller (?:P) and {} by the profile of its stage, {}: "
+                 fmt::format("a pulse of {} is {} by the controller and {} by the profile of its stage, {}: "
                              "another stage is plugged in, the divisions were changed, or the profile is wrong",
                              label(axis), pulse_text(*reported), pulse_text(stage->pulse), stage->model),
                  fmt::format("plug in the {}, set divisions that make {} of a pulse (`axisctl divisions`), or correct "
@@ -115,10 +113,10 @@ Result<std::int64_t> Envelope::speed(int axis, const Quantity& asked) const {
     wanted.error().axis = axis;
     return wanted;
   }
-  if (*wanted < 1 || *wanted > kSpeedMax) {
+  if (*wanted < 1 || *wanted > profile_.speed_max) {
     return fail_on(axis, Reason::out_of_range,
                    fmt::format("a speed of {}{}/s is {} pulses/s on {}; 1 to {} are possible", to_string(asked.value),
-                               symbol(asked.unit), *wanted, label(axis), kSpeedMax));
+                               symbol(asked.unit), *wanted, label(axis), profile_.speed_max));
   }
   if (const auto good = check_speed(axis, *wanted); !good) return tl::unexpected(good.error());
   return wanted;
@@ -137,7 +135,7 @@ Result<void> Envelope::check_speed(int axis, std::int64_t pulses_per_second) con
 Result<std::optional<std::int64_t>> Envelope::speed_cap(int axis) const {
   const auto cap = innermost(axis, &AxisLimits::maximum_speed, 1);
   if (!cap) return tl::unexpected(cap.error());
-  return *cap ? std::optional(std::min((*cap)->pulses, kSpeedMax)) : std::nullopt;
+  return *cap ? std::optional(std::min((*cap)->pulses, profile_.speed_max)) : std::nullopt;
 }
 
 Result<std::int64_t> Envelope::pulses(int axis, const Quantity& distance) const {

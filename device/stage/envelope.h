@@ -15,8 +15,6 @@
 
 namespace axisgate::stage {
 
-inline constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s (manual 89) D:)
-
 // The envelope of one caller at one moment. The profile and the state must outlive it.
 class Envelope {
  public:
@@ -27,7 +25,7 @@ class Envelope {
   // check_stage().
   Result<void> check_axis(int axis) const;
   // Fails with identity_mismatch if the resolution differs from the profile of the axis's stage. Checked at each motion
-  // of the axis, since S: changes the resolution (manual 55)).
+  // of the axis, since a request can change the resolution.
   Result<void> check_stage(int axis) const;
   // Fails with not_homed if the axis must home before any other motion.
   Result<void> check_homed(int axis) const;

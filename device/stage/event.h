@@ -93,10 +93,10 @@ struct UnfinishedJudged {
   std::string motions;
 };
 
-// Memory switches were changed permanently in a visit to their edit mode (manual 117) MS:ON).
+// Memory switches, which a controller keeps without power, were changed in a visit to their edit mode.
 struct SwitchesChanged {
   struct Change {
-    int item = 0, number = 0;  // item 0 to 8 (manual 119)), number from 0
+    int item = 0, number = 0;  // as the controller counts them, from 0
     std::string before, after;
   };
   std::string who;
@@ -104,7 +104,7 @@ struct SwitchesChanged {
   bool unknown = false;  // more switches may have changed: the line was lost, or the controller did not report them
 };
 
-// The program stored in the controller sent a notice (manual 109) P:C, 110) P:T).
+// The program stored in the controller sent a notice.
 struct ProgramNotice {
   enum class Kind { ended, trigger };
   Kind kind = Kind::ended;

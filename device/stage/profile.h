@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ struct LimitOverride : AxisLimits {
 // The stage model mounted on an axis. Its travel and speed limits are in the axis's own limits.
 struct StageProfile {
   std::string model;              // "OSMS20-85", shown to people
-  Scale pulse;                    // resolution that ?:P must report for the axis (manual 10))
+  Scale pulse;                    // resolution that the controller must report for the axis
   std::optional<Decimal> modulo;  // degrees of one turn of a rotary stage; above 0
 };
 
@@ -41,11 +42,11 @@ struct AxisProfile : AxisLimits {
   bool rotary() const { return stage ? stage->pulse.rotary : unit == Unit::degrees; }
 };
 
-// Treatment of running motions when the gateway ends: stop them by L:, or wait for them.
+// Treatment of running motions when the gateway ends: stop them, or wait for them.
 enum class AtExit { stop, finish };
 
-// Treatment of the settings that a lease's holder has changed (manual 89) D:, 96) O:, 97) to 101) T:) when the lease
-// ends: restore the previous values, or keep the new ones.
+// Treatment of the settings that a lease's holder has changed (speeds, outputs, trigger) when the lease ends: restore
+// the previous values, or keep the new ones.
 enum class AtLeaseEnd { restored, kept };
 
 // The configuration of a stage controller of any kind. Each kind adds its own profile.
@@ -59,6 +60,7 @@ struct Profile {
   std::array<AxisProfile, kAxesMax> axes;
   AtExit at_exit = AtExit::stop;
   AtLeaseEnd settings_at_lease_end = AtLeaseEnd::restored;
+  std::int64_t speed_max = kPulsesMax;  // pulses/s: the kind's limit, whatever the configuration
 
   const AxisProfile& axis(int number) const { return axes[static_cast<std::size_t>(number - 1)]; }
 };

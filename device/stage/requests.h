@@ -13,7 +13,6 @@
 #include "device/core/problem.h"
 #include "device/core/quantity.h"
 #include "device/core/time.h"
-#include "device/stage/arc.h"
 #include "device/stage/axes.h"
 #include "device/stage/motion.h"
 #include "device/stage/stop.h"
@@ -21,7 +20,8 @@
 
 namespace axisgate::stage {
 
-// S, F and R of an axis (manual 89) D:): speeds from 1 to 1,000,000 pulses/s, S <= F, R from 1 to 1,000 ms.
+// Speeds of an axis: it starts and ends at the minimum, and reaches the maximum after the acceleration time. The
+// minimum is at most the maximum. The kind sets the ranges.
 struct SpeedProfile {
   Quantity minimum;
   Quantity maximum;
@@ -41,13 +41,16 @@ struct MoveRequest {
   use::RequestContext context;
 };
 
-// Mechanical origin return (manual 60) HRT:) or return to the logical origin (62) ZRT:).
+// Mechanical origin return, or return to the logical origin.
 struct HomeRequest {
   AxisSet axes;  // empty: all controllable axes
   use::RequestContext context;
 };
 
-// A circle, an arc or a helix (manual 71) to 82)). Values for two axes are in the order of `axes`.
+// Direction of a curve, seen with the first axis pointing right and the second one up.
+enum class Rotation { clockwise, counterclockwise };
+
+// A circle, an arc or a helix. Values for two axes are in the order of `axes`.
 struct Curve {
   struct Around {
     std::array<Quantity, 2> center;
@@ -66,12 +69,13 @@ struct Curve {
 // relative or absolute. All segments of a path have the same axes.
 struct Segment {
   std::vector<AxisMove> moves;
-  bool relative = true;           // displacements from the segment's start, instead of positions
-  std::optional<Quantity> speed;  // path speed of a line or curve (S of its lowest axis), or F of a single axis
+  bool relative = true;  // displacements from the segment's start, instead of positions
+  std::optional<Quantity>
+      speed;  // path speed of a line or curve (minimum speed of its lowest axis), or maximum speed of a single axis
   std::optional<int> acceleration_ms;
   std::optional<Curve> curve{};  // instead of moves
   Duration rest{};               // pause at READY before the segment, 0 to kRestMax
-  std::optional<int> inputs{};   // input pattern to wait for at READY before the segment, as I: reports it; 0 to 63
+  std::optional<int> inputs{};   // input pattern to wait for at READY before the segment, as bits; 0 to 63
 
   static constexpr Duration kRestMax = std::chrono::milliseconds(255'000);
 };
@@ -80,20 +84,19 @@ struct Segment {
 struct ScanRequest {
   int axis = 0;
   Quantity from, to;              // positions
-  std::optional<Quantity> speed;  // F; nullopt: unchanged
+  std::optional<Quantity> speed;  // maximum speed; nullopt: unchanged
   std::optional<int> acceleration_ms;
   bool by_scale = false;  // interval in scale pulses, in the direction of the scan
   std::int64_t interval = 0;
   use::RequestContext context;
 };
 
-// A GoToPositionRequest moves to a position saved in the controller (manual 131) PIT:GRT, 136) PAV:GRT).
+// A GoToPositionRequest moves to a position saved in the controller.
 struct GoToPositionRequest {
-  bool place = true;  // true: PIT:; false: PAV:
+  bool place = true;  // true: a place of the stage; false: coordinates
   int number = 0;     // 1 to 20
   // Expected saved coordinates by axis; a different report is refused with epoch_passed. Empty: any coordinates, but
-  // the position must be saved. Used for a place whose coordinates may have changed or been recomputed since (manual
-  // 129)).
+  // the position must be saved. Used for a place whose coordinates may have changed or been recomputed since.
   std::map<int, std::int64_t> expected;
   use::RequestContext context;
 };
@@ -104,12 +107,12 @@ struct PathRequest {
   use::RequestContext context;
 };
 
-// A JogRequest runs axes until they are stopped: J: (manual 88)). The caller renews it again and again.
+// A JogRequest runs axes until they are stopped. The caller renews it again and again.
 struct JogRequest {
   struct Axis {
     int axis = 0;
     int direction = 1;              // 1 or -1
-    std::optional<Quantity> speed;  // per second (93) JD:); nullopt: S
+    std::optional<Quantity> speed;  // per second; nullopt: the minimum speed
   };
   std::vector<Axis> axes;  // at most one per axis
   use::RequestContext context;
@@ -119,7 +122,7 @@ struct StopReport {
   struct Axis {
     int axis = 0;
     std::string wire_reply;         // OK or NG; empty: no answer, or no trustworthy one
-    bool named = false;             // named in L:; not if its motor is off, since L: would be refused (manual 65))
+    bool named = false;             // named in the stop's line; not if its motor is off
     bool reply_unreadable = false;  // an answer came, but it was unreadable
     std::optional<bool> ready;
     std::optional<std::int64_t> position_pulses;

@@ -10,6 +10,7 @@
 #include "device/core/quantity.h"
 #include "device/core/time.h"
 #include "device/stage/axes.h"
+#include "device/stage/condition.h"
 #include "device/stage/stop.h"
 #include "device/stage/trigger.h"
 
@@ -24,19 +25,8 @@ enum class LinkState {
 };
 std::string_view name(LinkState state);  // "DOWN", "CONNECTING", ...
 
-// Status of one axis (manual 5) Q:S), with bits numbered from 1 as in the manual.
-struct AxisStatusBits {
-  std::uint32_t raw = 0;
-
-  bool bit(int number) const { return (raw >> (number - 1)) & 1u; }
-  bool emergency() const { return bit(6); }
-  bool cw_limit() const { return bit(20); }
-  bool ccw_limit() const { return bit(21); }
-};
-
-// S and F in pulses/s, 1 to 1,000,000, and R in ms, 1 to 1,000 (manual 89), 94)).
 struct SpeedSetting {
-  std::int64_t minimum, maximum;
+  std::int64_t minimum, maximum;  // pulses/s
   int acceleration_ms;
 
   friend bool operator==(const SpeedSetting&, const SpeedSetting&) = default;
@@ -46,16 +36,17 @@ struct AxisState {
   bool controllable = false;
   std::optional<std::int64_t> position_pulses;  // command counter, as last read
   std::optional<bool> busy;
-  bool armed = false;           // WI: was accepted for the axis: an input can start its motion (manual 58))
+  bool armed = false;           // an input can start its motion
   bool foreign_motion = false;  // the axis moves without a request to this gateway
   std::optional<bool> excited;
-  bool homed = false;  // homed by this gateway since the device epoch began, and no coordinate was set since
-  int homings = 0;     // number of successful mechanical origin returns; each sets the coordinates again
-  AxisStatusBits status;
+  bool homed = false;             // homed by this gateway since the device epoch began, and no coordinate was set since
+  int homings = 0;                // number of successful mechanical origin returns; each sets the coordinates again
+  std::uint32_t status_bits = 0;  // as the controller reports them; the kind knows their meaning
+  ConditionBits conditions = 0;   // shown by the status
   std::optional<Scale> scale;
-  std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses/s, as last read or set
-  std::optional<int> acceleration_ms;                        // R
-  std::optional<SpeedSetting> origin_speeds;  // S, F and R of the mechanical origin return, as last read or set
+  std::optional<std::int64_t> minimum_speed, maximum_speed;  // pulses/s, as last read or set
+  std::optional<int> acceleration_ms;
+  std::optional<SpeedSetting> origin_speeds;  // of the mechanical origin return, as last read or set
 };
 
 struct State {
@@ -65,9 +56,9 @@ struct State {
   std::string mode, format;
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
   TimePoint epoch_began{};         // time at which device_epoch was last raised
-  std::uint64_t frame_epoch = 0;   // raised with device_epoch, and when coordinates were set again: R: RC: PSET:
+  std::uint64_t frame_epoch = 0;   // raised with device_epoch, and when coordinates were set again
   std::array<AxisState, kAxesMax> axes;
-  std::optional<int> outputs;               // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
+  std::optional<int> outputs;               // as bits from the first output on, as last read or set
   std::optional<Trigger> trigger;           // as last read or set
   bool moving_unknown = false;              // the line was lost while something moved, and nothing was read since
   TimePoint read{};                         // when the positions were last read

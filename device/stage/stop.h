@@ -15,7 +15,7 @@ namespace axisgate::stage {
 
 using StopId = std::uint64_t;  // 0: none; ascending for each device
 
-enum class StopKind { stop, emergency };  // manual 65) L:, 66) L:E
+enum class StopKind { stop, emergency };
 
 enum class StopState {
   asked,      // not written yet: the line is closed, or the controller accepts no stop in its mode
@@ -26,7 +26,7 @@ enum class StopState {
 };
 inline constexpr std::size_t kStopStates = 5;
 
-std::string_view name(StopState state);  // "asked", as in device/shrc203/README.md
+std::string_view name(StopState state);  // "asked"
 inline bool is_open(StopState state) { return state == StopState::asked || state == StopState::written; }
 
 struct Stop {

@@ -8,8 +8,8 @@ namespace axisgate::stage {
 struct Trigger {
   enum class Target { none, drive_pulses, timer, scale_plus, scale_minus };
   Target target = Target::none;
-  int axis = 0;               // 1 to 3; 0 for timer and none
-  std::int64_t interval = 0;  // 2 to 30,000 pulses; 1 to 10,000 times 0.01 s for a timer
+  int axis = 0;               // 0 for timer and none
+  std::int64_t interval = 0;  // pulses; times 0.01 s for a timer
 
   friend bool operator==(const Trigger&, const Trigger&) = default;
 };

@@ -81,9 +81,9 @@ void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisS
   axis.set_armed(state.armed);
   if (state.excited) axis.set_excited(*state.excited);
   axis.set_homed(state.homed);
-  axis.set_status_bits(state.status.raw);
+  axis.set_status_bits(state.status_bits);
   if (state.controllable) {
-    for (const auto condition : stage::listed(stage::conditions_in(state.status.raw))) {
+    for (const auto condition : stage::listed(state.conditions)) {
       axis.add_conditions(to_condition(condition));
     }
   }

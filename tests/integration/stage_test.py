@@ -97,7 +97,7 @@ class Stages(unittest.TestCase):
     def test_another_stage_is_not_moved(self):
         self.serve()
         refusal = self.refused("IDENTITY_MISMATCH", "move", "z=1um")
-        self.assertIn("a pulse of axis 3 (z) is 10 nm by the controller (?:P) and 20 nm by the profile of its stage, "
+        self.assertIn("a pulse of axis 3 (z) is 10 nm by the controller and 20 nm by the profile of its stage, "
                       "Other: another stage is plugged in", refusal)
         self.assertIn("axisctl divisions", refusal)
         for arguments in (["move", "x=0", "z=1um", "--relative"], ["home", "z"], ["home"], ["jog", "z=+"],
@@ -116,7 +116,7 @@ class Stages(unittest.TestCase):
         self.ok("move", "z=1um")
         self.assertNotIn("WRONG STAGE", self.ok("status"))
         self.divide(1, "100", fits=False)
-        self.assertIn("is 20 nm by the controller (?:P) and 10 nm by the profile of its stage, Slider",
+        self.assertIn("is 20 nm by the controller and 10 nm by the profile of its stage, Slider",
                       self.refused("IDENTITY_MISMATCH", "move", "x=1"))
         self.divide(1, "200", fits=True)
         self.ok("move", "x=1")

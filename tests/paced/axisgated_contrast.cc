@@ -30,7 +30,7 @@ class Contrast final : public stage::Kind {
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words&, ByteLink& link,
                                                           stage::EventSink& events,
                                                           use::Permission& permission) const override {
-    shrc203::Profile own{profile};
+    shrc203::Profile own(profile);
     own.refills = shrc203::Refills::among_questions;
     return std::make_unique<shrc203::Controller>(std::move(own), link, events, permission);
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "device/shot/command/status.h"
 #include "tests/simulation/scenario.h"
 
 namespace axisgate::simulation {
@@ -228,7 +229,7 @@ TEST(Hazard, H20_WhatClearingDoesNotClear) {
   world.controller().clear_errors({}, world.context("keeper"), world.now(), [](const Result<void>&) {});
   world.run_for(seconds(1));
   ASSERT_EQ(written(world, "BEC:"), 1);
-  EXPECT_TRUE(world.controller().state().axis(2).status.bit(3)) << world.replay();
+  EXPECT_TRUE(status_of(world.controller().state().axis(2)).bit(3)) << world.replay();
   move_by(world, {{2, 1000}});
   EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::device_error) << world.replay();
   EXPECT_EQ(world.device().starts(2), 0);

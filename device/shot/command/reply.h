@@ -11,6 +11,7 @@
 
 #include "device/core/quantity.h"
 #include "device/shot/command/model.h"
+#include "device/shot/command/status.h"
 #include "device/shot/stage.h"
 
 namespace axisgate::shot {

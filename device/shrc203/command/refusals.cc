@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "device/shot/command/status.h"
 #include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203 {
@@ -13,11 +14,11 @@ namespace {
 // Bits as numbered in manual 5) Q:S; manual 53) says which errors BEC: clears.
 template <int kBit>
 constexpr bool bit(const AxisState& axis) {
-  return axis.status.bit(kBit);
+  return status_of(axis).bit(kBit);
 }
 bool busy(const AxisState& axis) { return axis.busy.value_or(false); }
 bool off(const AxisState& axis) { return !axis.excited.value_or(true); }
-bool at_limit(const AxisState& axis) { return axis.status.cw_limit() || axis.status.ccw_limit(); }
+bool at_limit(const AxisState& axis) { return status_of(axis).cw_limit() || status_of(axis).ccw_limit(); }
 
 // Interpretation: an error prevents motion and the commands that prepare motion. Manual 5) only names the errors.
 bool motion(const CommandRow& row) { return row.moves() || row.effect == Effect::motion_setting || row.needs.excited; }
@@ -107,7 +108,7 @@ Problem unexplained(std::string_view sent, AxisSet axes, const State& state) {
     const AxisState& axis = state.axis(number);
     facts += fmt::format("; axis {} is {}, its motor is {}, status {:X}", number,
                          axis.busy.value_or(false) ? "BUSY" : "READY", axis.excited.value_or(true) ? "on" : "off",
-                         axis.status.raw);
+                         axis.status_bits);
   }
   return {.reason = Reason::unexplained,
           .message = fmt::format(

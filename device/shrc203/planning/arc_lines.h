@@ -5,7 +5,7 @@
 
 #include "device/core/problem.h"
 #include "device/shot/command/command.h"
-#include "device/stage/arc.h"
+#include "device/shrc203/planning/arc.h"
 #include "device/stage/envelope.h"
 
 namespace axisgate::shrc203 {

@@ -5,9 +5,9 @@
 
 #include "device/core/problem.h"
 #include "device/shot/command/pattern.h"
+#include "device/shrc203/planning/arc.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/stage.h"
-#include "device/stage/arc.h"
 #include "device/stage/envelope.h"
 
 namespace axisgate::shrc203 {

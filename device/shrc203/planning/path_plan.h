@@ -11,6 +11,7 @@
 #include "device/shrc203/command/trigger.h"
 #include "device/shrc203/planning/curve_plan.h"
 #include "device/shrc203/planning/plan.h"
+#include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"
 #include "device/stage/envelope.h"
 

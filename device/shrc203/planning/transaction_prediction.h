@@ -7,8 +7,8 @@
 
 #include "device/shot/command/command.h"
 #include "device/shot/command/reply.h"
+#include "device/shrc203/planning/arc.h"
 #include "device/shrc203/planning/plan.h"
-#include "device/stage/arc.h"
 #include "device/stage/envelope.h"
 
 namespace axisgate::shrc203 {

@@ -71,7 +71,7 @@ bool ErrorClearing::lifts_latch(AxisSet axes) const {
 Result<void> ErrorClearing::lift_latch(AxisSet axes, const std::string& who) {
   if (!lifts_latch(axes) || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
   for (const int axis : store_.controllable().list()) {
-    if (!store_.state().axis(axis).status.emergency()) continue;
+    if (!status_of(store_.state().axis(axis)).emergency()) continue;
     return fail_on(axis, Reason::emergency_stopped,
                    fmt::format("axis {} is still in emergency stop, although BEC: was accepted", axis),
                    "release the emergency stop button, then clear again");

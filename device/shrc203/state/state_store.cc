@@ -124,9 +124,10 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
     auto& axis = state_.axis(number);
     if (!reading.valid) continue;
     axis.position_pulses = reading.pulses;
-    axis.status = reading.status;
+    axis.status_bits = reading.status.raw;
+    axis.conditions = conditions_in(reading.status);
     axis.busy = reading.busy;
-    shown[number] = stage::conditions_in(reading.status.raw);
+    shown[number] = axis.conditions;
     (reading.busy ? read.busy : read.ready).add(number);
   }
   state_.read = tasks_.now();

@@ -5,6 +5,7 @@
 
 #include "device/core/lane.h"
 #include "device/core/problem.h"
+#include "device/shot/command/status.h"
 #include "device/shrc203/command/refusals.h"
 #include "device/stage/event.h"
 #include "device/stage/motion.h"
@@ -61,7 +62,7 @@ TEST(Names, OfExchangeOutcomes) {
 
 bool shows_error(std::uint32_t status) {
   device::State state;
-  state.axis(1).status.raw = status;
+  state.axis(1).status_bits = status;
   return device::error_shown(device::AxisSet::of(1), state).has_value();
 }
 
@@ -69,7 +70,7 @@ bool shows_error(std::uint32_t status) {
 TEST(AxisStatusBits, TellErrorsFromWarningsAndStates) {
   const std::set<int> errors = {3, 4, 5, 6, 7, 8, 9, 10, 13, 15};
   for (int number = 1; number <= 25; ++number) {
-    const device::AxisStatusBits status{1u << (number - 1)};
+    const shot::AxisStatusBits status{1u << (number - 1)};
     EXPECT_EQ(shows_error(status.raw), errors.contains(number)) << "bit " << number;
     EXPECT_EQ(status.cw_limit(), number == 20) << "bit " << number;
     EXPECT_EQ(status.ccw_limit(), number == 21) << "bit " << number;

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "device/shrc203/planning/arc.h"
 #include "device/shrc203/simulator/motion/arcs.h"
 #include "device/shrc203/stage.h"
-#include "device/stage/arc.h"
 #include "tests/simulation/random.h"
 
 namespace axisgate::shrc203::arc_seeds_test {

@@ -1,6 +1,6 @@
 // Arcs and helices (manual 71) to 82)): the manual's examples, arcs with closed-form results, and arcs that are
 // refused.
-#include "device/stage/arc.h"
+#include "device/shrc203/planning/arc.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace axisgate::stage::arc_test {
+namespace axisgate::shrc203::arc_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -199,4 +199,4 @@ TEST(Arc, WithItsCenterWhereItStandsItGoesNowhere) {
 }
 
 }  // namespace
-}  // namespace axisgate::stage::arc_test
+}  // namespace axisgate::shrc203::arc_test

@@ -5,11 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "device/shot/command/status.h"
+
 namespace axisgate::shrc203::conditions_test {
 namespace {
 
 using stage::Condition;
-using stage::conditions_in;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -19,7 +20,7 @@ TimePoint at(int second) { return TimePoint(seconds(second)); }
 TEST(Conditions, AStatusInWords) {
   const auto said = [](std::uint32_t status) {
     std::vector<std::string> texts;
-    for (const Condition condition : stage::listed(conditions_in(status))) texts.push_back(stage::words(condition));
+    for (const Condition condition : stage::listed(conditions_in({status}))) texts.push_back(stage::words(condition));
     return texts;
   };
   EXPECT_THAT(said(0x1), IsEmpty());
@@ -55,7 +56,7 @@ TEST(Conditions, WhatHasChangedInWords) {
 class Readings : public testing::Test {
  protected:
   Conditions::Changes read(std::uint32_t first, std::uint32_t second, int second_of_reading) {
-    return conditions_.status_read({{1, conditions_in(first)}, {2, conditions_in(second)}}, at(second_of_reading));
+    return conditions_.status_read({{1, conditions_in({first})}, {2, conditions_in({second})}}, at(second_of_reading));
   }
   Conditions conditions_;
 };

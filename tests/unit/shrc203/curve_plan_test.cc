@@ -11,7 +11,7 @@ namespace {
 
 // Half a circle with a radius of 100 pulses while the third axis moves 50: the speed applies along the helix.
 TEST(ShareOfSpeed, IsAllInThePlaneAndThePitchBesideIt) {
-  const stage::Arc arc{.radius = 100, .heading = 0, .sweep = std::numbers::pi, .rise = -50};
+  const Arc arc{.radius = 100, .heading = 0, .sweep = std::numbers::pi, .rise = -50};
   EXPECT_EQ(share_of_speed(arc, false), 1);
   EXPECT_DOUBLE_EQ(share_of_speed(arc, true), 50 / std::hypot(100 * std::numbers::pi, 50));
 }

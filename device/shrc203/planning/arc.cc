@@ -1,4 +1,4 @@
-#include "device/stage/arc.h"
+#include "device/shrc203/planning/arc.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "device/core/quantity.h"
 
-namespace axisgate::stage {
+namespace axisgate::shrc203 {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -186,4 +186,4 @@ Duration duration_of(const Arc& arc, std::int64_t path_speed) {
   return std::chrono::nanoseconds(std::llround(seconds * 1e9));
 }
 
-}  // namespace axisgate::stage
+}  // namespace axisgate::shrc203

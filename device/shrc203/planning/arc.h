@@ -6,8 +6,9 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/shrc203/stage.h"
 
-namespace axisgate::stage {
+namespace axisgate::shrc203 {
 
 // A point in the plane of two axes, the axis with the smaller number first (manual 71), c1 and c2). Whole pulses from
 // the start of the curve, as to_pulses() returns them: at most +-kPulsesMax.
@@ -17,9 +18,6 @@ struct PlanePoint {
 
   friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
 };
-
-// The command's d, 0 and 1, seen with the first axis pointing right and the second one up.
-enum class Rotation { clockwise, counterclockwise };
 
 // A piece of a circle, or several turns of it. Described by its start and sweep and not by its center: with three
 // points nearly on one line, the center is too far off to compute with.
@@ -91,4 +89,4 @@ double length_of(const Arc& arc);
 // throughout (manual 71) to 82), "composite speed"). Durations above about thirty years are cut to that.
 Duration duration_of(const Arc& arc, std::int64_t path_speed);
 
-}  // namespace axisgate::stage
+}  // namespace axisgate::shrc203
