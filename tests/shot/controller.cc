@@ -12,11 +12,13 @@ constexpr Duration kStartLimit = std::chrono::seconds(5);
 
 }  // namespace
 
-Controller::Controller(shot::Profile profile, ByteLink& link, EventSink& events, Permission& permission)
-    : profile_(std::move(profile)),
+Controller::Controller(const Model& model, shot::Profile profile, ByteLink& link, EventSink& events,
+                       Permission& permission)
+    : model_(model),
+      profile_(std::move(profile)),
       events_(events),
       permission_(permission),
-      line_(model(), profile_, link, tasks_.executor(), *this) {
+      line_(model_, profile_, link, tasks_.executor(), *this) {
   tasks_.spawn(poll());
 }
 
@@ -56,8 +58,8 @@ std::optional<TimePoint> Controller::next_deadline() const {
 }
 
 tl::unexpected<Problem> Controller::cannot() const {
-  return fail(Reason::not_allowed,
-              fmt::format("device {}: a SHOT-2 moves, homes and stops, and no more", profile_.name), "ask for moves");
+  return fail(Reason::not_allowed, fmt::format("device {}: it moves, homes and stops, and no more", profile_.name),
+              "ask for moves");
 }
 
 Result<void> Controller::check_up() const {
@@ -175,13 +177,13 @@ void Controller::refresh(Duration max_age, const RequestContext& context, TimePo
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    const AxisSet named = axes.empty() ? model().axes() : axes;
+    const AxisSet named = axes.empty() ? model_.axes() : axes;
     permission_.stop_asked({context.who, context.lease, named, 0}, {}, now);
     stop_axes(named, context.who, std::move(done));
   });
 }
 
-// Stops both axes like stop(): nothing is latched, since a SHOT-2 has no errors to clear.
+// Stops both axes like stop(): nothing is latched, since it has no errors to clear.
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
   stop({}, context, now, std::move(done));
 }
@@ -209,7 +211,7 @@ void Controller::cancel_motion(MotionId id, const RequestContext& context, TimeP
 void Controller::wind_down(TimePoint now, OnWoundDown done) {
   at(now, [&] {
     ending_ = Problem{.reason = Reason::not_sent, .message = "the gateway ends"};
-    if (!live_.empty()) stop_axes(model().axes(), "the gateway (it ends)", [](const StopReport&) {});
+    if (!live_.empty()) stop_axes(model_.axes(), "the gateway (it ends)", [](const StopReport&) {});
     tasks_.spawn(end_all(std::move(done)));
   });
 }

@@ -1,4 +1,5 @@
-// Controller of a SHOT-2: moves and homes its two axes, one motion at a time, over the line of its family.
+// Controller of a SHOT-1, SHOT-2 or SHOT-8: moves and homes its axes, one motion at a time, over the line of its
+// family.
 #pragma once
 
 #include <deque>
@@ -21,7 +22,7 @@ namespace axisgate::shot2 {
 class Controller final : public StageController, private LineListener {
  public:
   // The referenced objects must outlive the controller.
-  Controller(shot::Profile profile, ByteLink& link, EventSink& events, Permission& permission);
+  Controller(const Model& model, shot::Profile profile, ByteLink& link, EventSink& events, Permission& permission);
 
   void link_up(TimePoint now) override;
   void link_down(TimePoint now, std::string_view why) override;
@@ -97,6 +98,7 @@ class Controller final : public StageController, private LineListener {
   std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) override;
   ExchangeRequest request_of(Command command, Lane lane, const std::string& who) const;
   ExchangeRequest stop_of(AxisSet axes) const;
+  std::vector<AxisSet> by_letter(AxisSet axes) const;
   Task<void> shake_hands(Identity identity);
   Task<Result<void>> read(Lane lane, std::string who, bool handshake = false);
   Task<void> refresh_for(RequestContext context, OnState done);
@@ -110,12 +112,15 @@ class Controller final : public StageController, private LineListener {
   // motions.cc
   Task<void> run(LivePtr live);
   Task<Result<void>> start(const LivePtr& live);
+  Task<Result<void>> set_targets(const LivePtr& live, AxisSet axes);
+  Task<Result<void>> go(const LivePtr& live, AxisSet axes);
   Task<void> watch(const LivePtr& live);
   void judge(const LivePtr& live);
   void end(const LivePtr& live, MotionState outcome, std::optional<Problem> problem);
   LivePtr find(MotionId id) const;
   void emit(const Event& event) { events_.on_event(event, tasks_.now()); }
 
+  const Model& model_;
   const shot::Profile profile_;
   EventSink& events_;
   Permission& permission_;

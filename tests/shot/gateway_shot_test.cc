@@ -1,4 +1,5 @@
-// The gateway with a stage of two axes: the configuration, leases and stops know how many there are.
+// The gateway with stages of one, two and eight axes: the configuration, leases and stops know how many there are.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,19 +17,24 @@ namespace {
 
 using testing::HasSubstr;
 
-Configured<Config> parse(const std::string& device) {
-  static const std::vector<const stage::Kind*> kinds = {&shot2::kind()};
-  return parse_config("[[device]]\nname = \"table\"\nkind = \"shot2\"\nconnection = \"simulated\"\n" + device,
+Configured<Config> parse(int axes, int axis) {
+  const std::vector<const stage::Kind*> kinds = {&shot2::kind_of(axes)};
+  return parse_config(fmt::format("[[device]]\nname = \"table\"\nkind = \"shot{}\"\nconnection = \"simulated\"\n"
+                                  "[[device.axis]]\nnumber = {}\n",
+                                  axes, axis),
                       "shot.toml", {.stages = kinds});
 }
 
-TEST(GatewayWithShot2, HasItsTwoAxes) {
-  const auto config = parse("[[device.axis]]\nnumber = 2\nunit = \"mm\"\n");
+class GatewayWithShot : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Stages, GatewayWithShot, testing::Values(1, 2, 8));
+
+TEST_P(GatewayWithShot, HasItsAxes) {
+  const auto config = parse(GetParam(), GetParam());
   ASSERT_TRUE(config);
   Gateway gateway(*config, 1);
   gateway.start();
   Stage& stage = *gateway.find_stage("table");
-  EXPECT_EQ(stage.whole(), use::Scope(stage::AxisSet::first(2)));
+  EXPECT_EQ(stage.whole(), use::Scope(stage::AxisSet::first(GetParam())));
   const TimePoint limit = monotonic_now() + std::chrono::seconds(10);
   const auto link = [&] { return stage.newest_state().get().value->link; };
   while (link() != stage::LinkState::up && monotonic_now() < limit) {
@@ -37,10 +43,10 @@ TEST(GatewayWithShot2, HasItsTwoAxes) {
   EXPECT_EQ(link(), stage::LinkState::up);
 }
 
-TEST(GatewayWithShot2, AThirdAxisIsAnErrorOfTheConfiguration) {
-  const auto config = parse("[[device.axis]]\nnumber = 3\n");
+TEST_P(GatewayWithShot, OneAxisMoreIsAnErrorOfTheConfiguration) {
+  const auto config = parse(GetParam(), GetParam() + 1);
   ASSERT_FALSE(config);
-  EXPECT_THAT(to_string(config.error().front()), HasSubstr("1 to 2"));
+  EXPECT_THAT(to_string(config.error().front()), HasSubstr("device.axis.number"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 using namespace shot::rows;  // NOLINT(google-build-using-namespace)
 using Kind = Parameter::Kind;
 
-constexpr Parameter kAxes{"a", "axes: 1, 2, A=1+2", Kind::choice, "1 2 A"};
+constexpr Parameter kAxes{"a", "axes: a number, or A=1+2", Kind::choice, "1 2 3 4 5 6 7 8 A"};
 constexpr Parameter kSign{"m", "direction", Kind::choice, "+ -"};
 constexpr Parameter kUnit{"u", "unit: P pulse", Kind::choice, "P"};
 constexpr Parameter kTarget{"y", "target", Kind::decimal, {}, 0, 999'999'999, "pulses"};
@@ -31,9 +31,10 @@ std::vector<CommandRow> all_rows() {
 
 }  // namespace
 
-const Model& model() {
-  static const Model only("SHOT-2", 2, all_rows(), {});
-  return only;
+const Model& model_of(int axis_count) {
+  static const Model one("SHOT-1", 1, all_rows(), {}), two("SHOT-2", 2, all_rows(), {}),
+      eight("SHOT-8", 8, all_rows(), {});
+  return axis_count == 1 ? one : axis_count == 2 ? two : eight;
 }
 
 }  // namespace axisgate::shot2

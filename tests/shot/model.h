@@ -1,4 +1,5 @@
-// SHOT-2: an invented controller of two axes in SHOT/FC mode, to try what its family shares.
+// Invented controllers in SHOT/FC mode, SHOT-1, SHOT-2 and SHOT-8 by the number of their axes, to try what the family
+// shares.
 #pragma once
 
 #include "device/shot/command/model.h"
@@ -7,6 +8,6 @@ namespace axisgate::shot2 {
 
 using namespace shot;  // NOLINT(google-build-using-namespace)
 
-const Model& model();
+const Model& model_of(int axis_count);  // 1, 2 or 8
 
 }  // namespace axisgate::shot2

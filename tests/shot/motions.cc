@@ -37,23 +37,38 @@ Task<void> Controller::run(LivePtr live) {
   co_await watch(live);
 }
 
-// Writes the target until it was certainly received, and the start once.
+// Starts nothing before all targets were certainly received. Each start is written once.
 Task<Result<void>> Controller::start(const LivePtr& live) {
-  const AxisSet axes = live->motion.axes;
-  if (live->targets) {
-    Arguments arguments;
-    arguments.axes(axes);
-    for (const auto& [axis, target] : *live->targets) arguments.pulses(target);
-    ExchangeRequest set = request_of(model().make("AP:", arguments), Lane::motion, live->context.who);
-    set.motion = live->motion.id;
-    auto written = line_.exchange(std::move(set), tasks_.now());
-    const ExchangeResult result = co_await written;
-    if (!result.accepted()) {
-      co_return tl::unexpected(
-          result.problem.value_or(Problem{.reason = Reason::device_refused, .message = "the target was refused"}));
-    }
+  const std::vector<AxisSet> sets = by_letter(live->motion.axes);
+  for (const AxisSet axes : sets) {
+    if (!live->targets) break;
+    const auto set = co_await set_targets(live, axes);
+    if (!set) co_return set;
   }
-  ExchangeRequest go = request_of(model().make(live->targets ? "G:" : "HRT:", axes), Lane::motion, live->context.who);
+  for (const AxisSet axes : sets) {
+    const auto started = co_await go(live, axes);
+    if (started) continue;
+    if (axes != sets.front()) stop_axes(live->motion.axes, "the gateway (a start failed)", [](const StopReport&) {});
+    co_return started;
+  }
+  co_return Result<void>();
+}
+
+Task<Result<void>> Controller::set_targets(const LivePtr& live, AxisSet axes) {
+  Arguments arguments;
+  arguments.axes(axes);
+  for (const int axis : axes.list()) arguments.pulses(live->targets->at(axis));
+  ExchangeRequest set = request_of(model_.make("AP:", arguments), Lane::motion, live->context.who);
+  set.motion = live->motion.id;
+  auto written = line_.exchange(std::move(set), tasks_.now());
+  const ExchangeResult result = co_await written;
+  if (result.accepted()) co_return Result<void>();
+  co_return tl::unexpected(
+      result.problem.value_or(Problem{.reason = Reason::device_refused, .message = "the target was refused"}));
+}
+
+Task<Result<void>> Controller::go(const LivePtr& live, AxisSet axes) {
+  ExchangeRequest go = request_of(model_.make(live->targets ? "G:" : "HRT:", axes), Lane::motion, live->context.who);
   go.motion = live->motion.id;
   go.completes = axes;
   auto written = line_.exchange(std::move(go), tasks_.now());

@@ -17,8 +17,8 @@ namespace axisgate::shot2 {
 
 class Rig : public EventSink {
  public:
-  explicit Rig(shot::Profile profile = {}, SimulatedUnit::Options options = {})
-      : unit(options, unit_side_), controller(std::move(profile), gateway_side_, *this, use::everybody_may()) {
+  explicit Rig(int axes)
+      : unit(axes, {}, unit_side_), controller(model_of(axes), {}, gateway_side_, *this, use::everybody_may()) {
     controller.link_up(now);
     run(std::chrono::seconds(2));
   }

@@ -28,14 +28,23 @@ ExchangeRequest Controller::request_of(Command command, Lane lane, const std::st
   return request;
 }
 
+// Returns the axes in sets that one letter names.
+std::vector<AxisSet> Controller::by_letter(AxisSet axes) const {
+  if (axes == AxisSet::first(2)) return {axes};
+  std::vector<AxisSet> sets;
+  for (const int axis : axes.list()) sets.push_back(AxisSet::of(axis));
+  return sets;
+}
+
 ExchangeRequest Controller::stop_of(AxisSet axes) const {
-  return request_of(model().make("L:", axes), Lane::stop, kGateway);
+  return request_of(model_.make("L:", axes), Lane::stop, kGateway);
 }
 
 std::vector<ExchangeRequest> Controller::stops_to_write(std::string_view heard, TimePoint) {
   std::vector<ExchangeRequest> due;
   for (const auto& open : stops_) {
-    if (heard.empty()) due.push_back(stop_of(open->axes));
+    if (!heard.empty()) continue;
+    for (const AxisSet axes : by_letter(open->axes)) due.push_back(stop_of(axes));
   }
   return due;
 }
@@ -65,8 +74,9 @@ void Controller::line_connected(const Identity& identity, const std::optional<st
 }
 
 Task<void> Controller::shake_hands(Identity identity) {
-  if (identity.model != model().name()) {
-    line_.disconnect(fmt::format("{} answers, but SHOT-2 is configured", escaped(identity.model)), tasks_.now());
+  if (identity.model != model_.name()) {
+    line_.disconnect(fmt::format("{} answers, but {} is configured", escaped(identity.model), model_.name()),
+                     tasks_.now());
     co_return;
   }
   state_.vendor = identity.vendor;
@@ -87,11 +97,11 @@ Task<void> Controller::shake_hands(Identity identity) {
     co_await pause;
     if (connection != connection_) co_return;
   }
-  line_.open(model().axes(), tasks_.now());
+  line_.open(model_.axes(), tasks_.now());
 }
 
 void Controller::line_trusted(TimePoint now) {
-  for (const int number : model().axes().list()) {
+  for (const int number : model_.axes().list()) {
     state_.axis(number).controllable = true;
     state_.axis(number).scale = kScale;
   }
@@ -128,7 +138,7 @@ void Controller::barrier_passed(const Identity& identity, TimePoint now) {
   if (line_.state().trusted()) show_link(LinkState::up, "");
 }
 
-// A restart cannot be ruled out by a SHOT-2: it keeps no setting that a restart would change.
+// A restart cannot be ruled out here: the unit keeps no setting that a restart would change.
 void Controller::restart_suspected(TimePoint now) { line_.disconnect("the controller may have restarted", now); }
 
 void Controller::completion_seen(int axis, bool doubtful, TimePoint) {
@@ -138,15 +148,15 @@ void Controller::completion_seen(int axis, bool doubtful, TimePoint) {
 }
 
 Task<Result<void>> Controller::read(Lane lane, std::string who, bool handshake) {
-  ExchangeRequest question = request_of(*model().parse("Q:SPC"), lane, who);
+  ExchangeRequest question = request_of(*model_.parse("Q:SPC"), lane, who);
   question.handshake = handshake;
   auto asked = line_.exchange(std::move(question), tasks_.now());
   const ExchangeResult result = co_await asked;
   if (result.problem) co_return tl::unexpected(*result.problem);
-  const auto readings = parse_positions(model(), *result.reply, model().axes());
+  const auto readings = parse_positions(model_, *result.reply, model_.axes());
   if (!readings) co_return fail(Reason::device_refused, "Q:SPC was answered by " + escaped(result.reply->text));
   AxisSet ready, busy;
-  for (const int number : model().axes().list()) {
+  for (const int number : model_.axes().list()) {
     const AxisReading& reading = (*readings)[static_cast<std::size_t>(number - 1)];
     state_.axis(number).position_pulses = reading.pulses;
     state_.axis(number).busy = reading.busy;
@@ -194,8 +204,12 @@ void Controller::stop_axes(AxisSet axes, const std::string& who, OnStopped done)
 Task<void> Controller::carry_out(std::shared_ptr<OpenStop> open) {
   StopReport report;
   for (;;) {
-    auto written = line_.exchange(stop_of(open->axes), tasks_.now());
-    const ExchangeResult result = co_await written;
+    std::string reply;
+    for (const AxisSet axes : by_letter(open->axes)) {
+      auto written = line_.exchange(stop_of(axes), tasks_.now());
+      const ExchangeResult result = co_await written;
+      reply = result.reply ? result.reply->text : "";
+    }
     // A stop that is written again and again in a barrier would never let it pass.
     while (!line_.state().trusted()) {
       auto pause = tasks_.pause(kStopPoll);
@@ -206,7 +220,7 @@ Task<void> Controller::carry_out(std::shared_ptr<OpenStop> open) {
     if (seen && std::ranges::all_of(open->axes.list(), stands)) {
       for (const int axis : open->axes.list()) {
         report.axes.push_back({.axis = axis,
-                               .wire_reply = result.reply ? result.reply->text : "",
+                               .wire_reply = reply,
                                .named = true,
                                .ready = true,
                                .position_pulses = state_.axis(axis).position_pulses});

@@ -5,15 +5,18 @@
 #include <vector>
 
 namespace axisgate::shot2 {
-namespace {
 
-std::vector<int> axes_in(std::string_view letter) {
-  if (letter == "1") return {1};
-  if (letter == "2") return {2};
-  return letter == "A" ? std::vector{1, 2} : std::vector<int>();
+std::vector<int> SimulatedUnit::axes_in(std::string_view letter) const {
+  const int digit = letter.size() == 1 ? letter[0] - '0' : 0;
+  if (digit >= 1 && digit <= static_cast<int>(axes_.size())) return {digit};
+  return letter == "A" && axes_.size() > 1 ? std::vector{1, 2} : std::vector<int>();
 }
 
-}  // namespace
+std::string SimulatedUnit::ready() const {
+  std::string fields;
+  for (const Axis& axis : axes_) fields += axis.arrives ? ",B" : ",R";
+  return fields.substr(1);
+}
 
 Result<void> SimulatedUnit::Options::set(std::string_view name, std::string_view value) {
   if (name != "speed" || std::atoll(std::string(value).c_str()) < 1) {
@@ -55,14 +58,16 @@ std::optional<TimePoint> SimulatedUnit::next_deadline() const {
 Result<std::string> SimulatedUnit::operate(std::string_view command, TimePoint now) {
   move_on(now);
   if (command != "positions") return fail(Reason::invalid_request, "say: positions");
-  return std::to_string(position(1)) + " " + std::to_string(position(2));
+  std::string positions;
+  for (const Axis& axis : axes_) positions += (positions.empty() ? "" : " ") + std::to_string(axis.place);
+  return positions;
 }
 
 std::string SimulatedUnit::answer_to(const std::string& line) {
-  if (line == "*IDN?") return "SIGMAKOKI,SHOT-2,4711,V1.00";
+  if (line == "*IDN?") return "SIGMAKOKI,SHOT-" + std::to_string(axes_.size()) + ",4711,V1.00";
   if (line == "?:CMD") return before_;
-  if (line == "!:") return busy(1) || busy(2) ? "B" : "R";
-  if (line == "!:S") return std::string(busy(1) ? "B" : "R") + (busy(2) ? ",B" : ",R");
+  if (line == "!:") return ready().find('B') == std::string::npos ? "R" : "B";
+  if (line == "!:S") return ready();
   if (line == "Q:SPC") return status();
   if (line.starts_with("AP:")) return set_targets(line.substr(3, 1), std::string_view(line).substr(4));
   if (line.starts_with("G:")) return start(line.substr(2), false);
@@ -112,13 +117,12 @@ std::string SimulatedUnit::stop(std::string_view letter) {
 }
 
 std::string SimulatedUnit::status() const {
-  std::string amounts, hex, ready;
+  std::string amounts, hex;
   for (const Axis& axis : axes_) {
     amounts += (amounts.empty() ? "P" : ",P") + std::to_string(axis.place);
     hex += ",00000001";
-    ready += axis.arrives ? ",B" : ",R";
   }
-  return amounts + hex + ready;
+  return amounts + hex + "," + ready();
 }
 
 void SimulatedUnit::go(Axis& axis, std::int64_t target) {
@@ -131,7 +135,7 @@ void SimulatedUnit::go(Axis& axis, std::int64_t target) {
 // Moves the axes up to `now`. An axis that arrives sends its number.
 void SimulatedUnit::move_on(TimePoint now) {
   now_ = now;
-  for (int number = 1; number <= 2; ++number) {
+  for (int number = 1; number <= static_cast<int>(axes_.size()); ++number) {
     Axis& axis = axis_of(number);
     if (!axis.arrives) continue;
     if (*axis.arrives <= now) {

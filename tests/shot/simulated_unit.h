@@ -1,11 +1,12 @@
-// Simulated SHOT-2. It reads and writes lines with separate code, so that tests detect a fault in the shared one.
+// Simulated SHOT-1, SHOT-2 or SHOT-8. It reads and writes lines with separate code, so that tests detect a fault in the
+// shared one.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/core/line_machine.h"
 #include "device/core/simulation.h"
@@ -21,7 +22,8 @@ class SimulatedUnit final : public Simulation {
     Result<void> set(std::string_view name, std::string_view value);
   };
 
-  SimulatedUnit(const Options& options, ByteLink& line) : options_(options), line_(line) {}
+  SimulatedUnit(int axis_count, const Options& options, ByteLink& line)
+      : options_(options), line_(line), axes_(static_cast<std::size_t>(axis_count)) {}
 
   void link_up(TimePoint now) override;
   void link_down(TimePoint now, std::string_view why) override;
@@ -46,7 +48,9 @@ class SimulatedUnit final : public Simulation {
   Axis& axis_of(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
   const Axis& axis_of(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }
 
+  std::vector<int> axes_in(std::string_view letter) const;
   std::string answer_to(const std::string& line);
+  std::string ready() const;
   std::string set_targets(std::string_view letter, std::string_view amounts);
   std::string start(std::string_view letter, bool home);
   std::string stop(std::string_view letter);
@@ -58,7 +62,7 @@ class SimulatedUnit final : public Simulation {
   ByteLink& line_;
   TimePoint now_{};
   std::string received_, before_ = "?:CMD";
-  std::array<Axis, 2> axes_;
+  std::vector<Axis> axes_;
 };
 
 }  // namespace axisgate::shot2

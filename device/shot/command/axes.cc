@@ -13,13 +13,8 @@ char command_letter(AxisSet axes) {
 }
 
 std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable) {
+  if (letter >= '1' && letter <= '0' + stage::kAxesMax) return AxisSet::of(letter - '0');
   switch (letter) {
-    case '1':
-      return AxisSet::of(1);
-    case '2':
-      return AxisSet::of(2);
-    case '3':
-      return AxisSet::of(3);
     case 'A':
       return AxisSet::of(1) | AxisSet::of(2);
     case 'B':

@@ -9,12 +9,12 @@
 
 namespace axisgate::shot {
 
-// Axes that a letter can name.
+// Axes that a letter other than a digit can name.
 inline constexpr AxisSet kLetteredAxes = AxisSet::first(3);
 
 // Letters of commands: 1 2 3, A=1+2, B=1+3, C=2+3, D=1+2+3 (manual 3) and every command with an `a`). W means "all
-// controllable axes" and depends on the controller, so the gateway never sends it. command_letter() needs at least one
-// axis.
+// controllable axes" and depends on the controller, so the gateway never sends it. command_letter() needs one axis, or
+// several that a letter names.
 char command_letter(AxisSet axes);
 std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable);
 

@@ -103,7 +103,7 @@ TEST(AxisSetting, HasItsOwnAlphabet) {
 }
 
 TEST(Alphabets, TakeNothingElse) {
-  const std::string command_letters = "123ABCDW";
+  const std::string command_letters = "12345678ABCDW";  // a digit is the number of the axis
   const std::string status_letters = "123CDEW";
   const std::string settings = "0123456";
   for (int byte = 0; byte < 256; ++byte) {
