@@ -10,14 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "server/limits.h"
 #include "server/log.h"
 #include "server/service_manager.h"
 
 namespace axisgate::server {
 namespace {
-
-// Time for streams and threads to end, after the devices.
-constexpr Duration kRestOfTheEnd = std::chrono::seconds(5);
 
 // Signals that would kill the process although it has no fault. ending_signals() adds the real-time signals.
 constexpr int kEnding[] = {SIGINT,  SIGTERM,   SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2,  SIGALRM,

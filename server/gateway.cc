@@ -11,14 +11,12 @@
 #include "server/devices/after_crash.h"
 #include "server/devices/mill.h"
 #include "server/devices/motion_record.h"
+#include "server/limits.h"
 #include "server/log.h"
 #include "server/recording/recording_file.h"
 
 namespace axisgate::server {
 namespace {
-
-// Longer than any reply's time limit and a barrier after it.
-constexpr Duration kLastExchangeLimit = std::chrono::seconds(10);
 
 std::string random_run() {
   std::random_device random;

@@ -7,16 +7,17 @@
 #include <memory>
 #include <utility>
 
+#include "server/limits.h"
+
 namespace axisgate::server {
 namespace {
 
-constexpr Duration kPause = std::chrono::seconds(20);
 // Blocks of at least this size, such as the longest messages, come from the system and return to it at once. By
 // default, the allocator raises this limit with each freed block, and freed messages leave holes in its memory.
 constexpr int kOfTheSystem = 128 << 10;  // bytes
 
 void look_later(Timeouts& timeouts, std::shared_ptr<SpareMemory> memory) {
-  timeouts.after(kPause, [&timeouts, memory = std::move(memory)] {
+  timeouts.after(kSpareMemoryPause, [&timeouts, memory = std::move(memory)] {
     memory->look();
     look_later(timeouts, memory);
   });

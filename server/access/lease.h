@@ -10,6 +10,7 @@
 #include "device/core/time.h"
 #include "device/use/scope.h"
 #include "server/access/lease_tokens.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
@@ -24,10 +25,8 @@ enum class AtLoss {
 std::string_view name(AtLoss at_loss);  // "stop_and_release"
 
 struct LeaseTerms {
-  static constexpr Duration kTimeToLive = std::chrono::seconds(10), kTimeToLiveMin = std::chrono::seconds(1),
-                            kTimeToLiveMax = std::chrono::hours(24);
   Scope scope;
-  Duration time_to_live = kTimeToLive;
+  Duration time_to_live = kLeaseTimeToLive;
   AtLoss at_loss = AtLoss::stop;
   std::optional<Duration> expected_use{};  // shown to waiting callers
   std::string purpose{};                   // for people; may be empty

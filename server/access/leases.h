@@ -18,6 +18,7 @@
 #include "device/use/permission.h"
 #include "server/access/lease.h"
 #include "server/access/lease_tokens.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
@@ -138,8 +139,6 @@ class Leases : public use::Permission {
   }
 
   static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 4096;
-  // Longest pause of a caller's loop between two motions.
-  static constexpr Duration kMovedLately = std::chrono::seconds(10);
 
   LeaseTokens& tokens_;
   std::vector<Held> held_;

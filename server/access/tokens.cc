@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "server/access/synced_file.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 constexpr std::string_view kPrefix = "axisgate.";
 constexpr std::string_view kHeader = "# axisgate tokens 1: name role created expires revoked sha256\n";
 constexpr std::size_t kSecretBytes = 32;
-constexpr auto kForgetAfter = std::chrono::days(30);
 
 std::string hexadecimal(const unsigned char* bytes, std::size_t count) {
   std::string text;
@@ -63,7 +63,7 @@ std::optional<Token> from_line(const std::string& line) {
 }
 
 bool worth_keeping(const Token& token, Calendar now) {
-  return now - token.revoked.value_or(token.expires) <= kForgetAfter;
+  return now - token.revoked.value_or(token.expires) <= kTokenForgottenAfter;
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ Result<void> Tokens::may_create(const std::string& name, Calendar expires, Calen
     return fail(Reason::invalid_request, fmt::format("there is a token named \"{}\" already", name),
                 "revoke it first, or choose another name");
   }
-  if (expires <= now || expires > now + kLifeMax) {
+  if (expires <= now || expires > now + kTokenLifeMax) {
     return fail(Reason::out_of_range, "a token lives for at least a second and at most ten years");
   }
   const auto kept = std::ranges::count_if(tokens_, [now](const Token& token) { return worth_keeping(token, now); });

@@ -11,6 +11,7 @@
 
 #include "device/core/problem.h"
 #include "server/access/roles.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
@@ -30,15 +31,14 @@ struct Token {
 class Tokens {
  public:
   static constexpr std::size_t kNameMax = 32, kKept = 1000;
-  static constexpr auto kLifeMax = std::chrono::years(10);
 
   // Reads the tokens from the file, which may be missing. Fails with internal if the file cannot be read or is invalid;
   // the message says why, and in which line.
   static Result<std::unique_ptr<Tokens>> open(std::string path);
 
   // Checks that such a token could be created. Fails with invalid_request if the name is not a letter followed by
-  // letters, digits, '-' or '_', or if a valid token has it; with out_of_range for a life below 1 s or beyond kLifeMax;
-  // and with queue_full.
+  // letters, digits, '-' or '_', or if a valid token has it; with out_of_range for a life below 1 s or beyond
+  // kTokenLifeMax; and with queue_full.
   Result<void> check_new(const std::string& name, Calendar expires, Calendar now) const;
 
   // Returns the token itself, which cannot be read again: `axisgate.NAME.SECRET`. Fails as check_new() does, and with

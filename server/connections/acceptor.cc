@@ -11,14 +11,11 @@
 #include <utility>
 
 #include "server/connections/callers.h"
+#include "server/limits.h"
 #include "server/log.h"
 
 namespace axisgate::server {
 namespace {
-
-// Pause of a listener that could not accept, and interval of the search for ended connections of the reserve. Short,
-// since a stop may wait until many connections have displaced each other.
-constexpr auto kLookAgain = std::chrono::milliseconds(5);
 
 bool is_out_of_descriptors(int error) {
   return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
@@ -149,7 +146,7 @@ void Acceptor::warn_seldom(const std::string& what) {
 
 void Acceptor::look_again_later() {
   if (std::exchange(timer_runs_, true)) return;
-  timer_.expires_after(kLookAgain);
+  timer_.expires_after(kAcceptAgain);
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (!error) look_again();
   });

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "device/link/clock.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
@@ -13,13 +14,12 @@ class Seldom {
   // Reports whether the last true result is at least 10 s ago.
   bool due() {
     const TimePoint now = monotonic_now();
-    if (last_ && now - *last_ < kApart) return false;
+    if (last_ && now - *last_ < kSeldomPause) return false;
     last_ = now;
     return true;
   }
 
  private:
-  static constexpr Duration kApart = std::chrono::seconds(10);
   std::optional<TimePoint> last_;
 };
 

@@ -7,12 +7,11 @@
 
 #include "device/core/escape.h"
 #include "device/core/explain.h"
+#include "server/limits.h"
 #include "server/log.h"
 
 namespace axisgate::server {
 namespace {
-
-constexpr Duration kUnexpectedLinePause = std::chrono::seconds(1);
 
 // Returns a text such as "move of axes 1 and 2". Settings and questions move no axes: "execute".
 std::string named(const stage::Motion& motion) {

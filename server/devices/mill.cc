@@ -190,7 +190,7 @@ void Mill::abort_requested(std::string_view by, TimePoint now) {
 void Mill::after_call() {
   const TimePoint now = monotonic_now();
   if (record_) record_->set_abort_waits(controller_->abort_waits());
-  if (changed_ || (controller_->running_job() != 0 && now - published_ >= kPublishPause)) publish(now);
+  if (changed_ || (controller_->running_job() != 0 && now - published_ >= kJobPublishPause)) publish(now);
   look_whether_wound_down(now);
 }
 
@@ -217,7 +217,7 @@ MillNow Mill::now(TimePoint at) {
 void Mill::wind_down(std::function<void()> done) {
   post([this, done = std::move(done)](jobs::Machine&, TimePoint now) {
     wound_down_ = done;
-    abort_at_ = config_.at_exit == MillConfig::AtExit::finish ? now + kFinishLimit : now;
+    abort_at_ = config_.at_exit == MillConfig::AtExit::finish ? now + kJobFinishLimit : now;
   });
 }
 
@@ -238,7 +238,7 @@ void Mill::look_whether_wound_down(TimePoint now) {
 }
 
 Duration Mill::wind_down_limit() const {
-  return kAbortLimit + (config_.at_exit == MillConfig::AtExit::finish ? kFinishLimit : Duration::zero());
+  return kAbortLimit + (config_.at_exit == MillConfig::AtExit::finish ? kJobFinishLimit : Duration::zero());
 }
 
 }  // namespace axisgate::server

@@ -17,6 +17,7 @@
 #include "server/events/newest.h"
 #include "server/events/wall_time.h"
 #include "server/journal/journal.h"
+#include "server/limits.h"
 #include "server/metrics/mill_metrics.h"
 #include "server/spool/spool.h"
 
@@ -70,16 +71,10 @@ class Mill final : public Device, private jobs::MachineEvents {
   // Call on the strand only.
   MillNow now(TimePoint at);
 
-  // Ends at once if no job is running. Depending on `at_exit`, a running job is aborted at once or after kFinishLimit.
-  // A paused job is aborted at once.
+  // Ends at once if no job is running. Depending on `at_exit`, a running job is aborted at once or after
+  // kJobFinishLimit. A paused job is aborted at once.
   void wind_down(std::function<void()> done) override;
   Duration wind_down_limit() const override;
-
-  // An abort has a few dozen bytes. If the line accepts none of them within this time, it is closed.
-  static constexpr Duration kAbortLimit = std::chrono::seconds(3);
-  static constexpr Duration kFinishLimit = std::chrono::seconds(60);
-  // Interval at which a running job is published.
-  static constexpr Duration kPublishPause = std::chrono::milliseconds(500);
 
  private:
   void link_changed(jobs::MachineLink link, std::string_view why, TimePoint now) override;

@@ -30,7 +30,7 @@ std::vector<StopRequested> RepeatedStops::add(const StopRequested& stop, TimePoi
   Series& series = found->second;
   series.last = now;
   ++series.folded;
-  if (now - series.reported >= kReport) reported.push_back(count_of(series, now));
+  if (now - series.reported >= kStopSeriesReport) reported.push_back(count_of(series, now));
   return reported;
 }
 
@@ -38,7 +38,7 @@ std::vector<StopRequested> RepeatedStops::ended(TimePoint now) {
   std::vector<StopRequested> over;
   for (auto entry = series_.begin(); entry != series_.end();) {
     Series& series = entry->second;
-    if (now - series.last <= kSeries) {
+    if (now - series.last <= kStopSeriesPause) {
       ++entry;
       continue;
     }

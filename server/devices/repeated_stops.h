@@ -10,17 +10,13 @@
 #include <vector>
 
 #include "device/stage/event.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
 // Not thread safe: runs on the device's strand.
 class RepeatedStops {
  public:
-  // Longest pause between two stops of one series.
-  static constexpr Duration kSeries = std::chrono::seconds(10);
-  // Interval at which a continuing series is reported.
-  static constexpr Duration kReport = std::chrono::minutes(10);
-
   // Returns the stops to report: the stop itself, the count of a series, or none if the stop is folded.
   std::vector<stage::StopRequested> add(const stage::StopRequested& stop, TimePoint now);
   // Returns the counts of series that are over.

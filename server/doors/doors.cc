@@ -5,14 +5,10 @@
 #include <utility>
 
 #include "device/link/asio.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
-namespace {
-
-// A client that does not read must not delay the end for longer than this.
-constexpr auto kLongestWait = std::chrono::milliseconds(500);
-
-}  // namespace
+namespace {}  // namespace
 
 Result<std::unique_ptr<Doors>> Doors::open(Gateway& gateway, Access& access, SavedPositions& positions,
                                            const ConnectionLimits& limits) {
@@ -69,11 +65,11 @@ Doors::~Doors() {
   listener_->stop();
 }
 
-// Runs `act` on the front's strand and waits until `act` has called `done`, at most kLongestWait.
+// Runs `act` on the front's strand and waits until `act` has called `done`, at most kFrontEnd.
 void Doors::on_the_front(std::function<void(const std::function<void()>& done)> act) {
   const auto acted = std::make_shared<std::promise<void>>();
   boost::asio::post(listener_->strand(), [acted, act = std::move(act)] { act([acted] { acted->set_value(); }); });
-  acted->get_future().wait_for(kLongestWait);
+  acted->get_future().wait_for(kFrontEnd);
 }
 
 }  // namespace axisgate::server

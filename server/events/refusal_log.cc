@@ -50,7 +50,7 @@ class RefusalLog::Windows {
   static void say_left_out(const std::string& source, const Window& window) {
     if (window.left_out == 0) return;
     log::warn("left out {} more refusals of {} in the last {} s", window.left_out, source,
-              std::chrono::duration_cast<std::chrono::seconds>(kWindow).count());
+              std::chrono::duration_cast<std::chrono::seconds>(kRefusalLogWindow).count());
   }
 
   std::mutex mutex_;
@@ -64,7 +64,7 @@ RefusalLog::~RefusalLog() = default;
 void RefusalLog::note(const std::string& source, const std::string& line) {
   const std::string* const began = windows_->note(source, line);
   if (began == nullptr) return;
-  later_(kWindow, [windows = std::weak_ptr(windows_), source = *began] {
+  later_(kRefusalLogWindow, [windows = std::weak_ptr(windows_), source = *began] {
     if (const auto still = windows.lock()) still->close(source);
   });
 }

@@ -9,15 +9,13 @@
 #include <string>
 
 #include "device/core/time.h"
+#include "server/limits.h"
 
 namespace axisgate::server {
 
 // Thread safe.
 class RefusalLog {
  public:
-  // Limit for one source: kLines within kWindow from its first line. The number of further lines is logged when the
-  // window ends.
-  static constexpr Duration kWindow = std::chrono::seconds(10);
   static constexpr int kLines = 5;
   // Number of sources logged separately; further ones share the label "other sources".
   static constexpr std::size_t kSources = 256;

@@ -6,13 +6,12 @@
 #include <chrono>
 #include <utility>
 
+#include "server/limits.h"
+
 namespace axisgate::front {
 namespace {
 
 namespace asio = boost::asio;
-
-// Time that a client has to take the last bytes before its connection is closed.
-constexpr Duration kFarewell = std::chrono::seconds(1);
 
 // Bytes that are decided in one go. They contain a few dozen calls, which delay a stop of others by about a
 // millisecond.
@@ -170,7 +169,7 @@ void Connection::take_from_grpc() {
   if (error == asio::error::would_block) return;
   if (!error) return conversation_->from_grpc({bytes.data(), size});
   grpc_left_ = true;
-  over_since_ = monotonic_now();  // so that a client that does not take the rest is closed after kFarewell
+  over_since_ = monotonic_now();  // so that a client that does not take the rest is closed after server::kFarewell
   conversation_->grpc_left();
 }
 
@@ -189,7 +188,7 @@ void Connection::write_grpc() {
 
 void Connection::check(TimePoint now) {
   const FrontLimits& limits = around_.shared.limits;
-  if (over_since_ && now - *over_since_ > kFarewell) return close();
+  if (over_since_ && now - *over_since_ > server::kFarewell) return close();
   if (now - begun_ > limits.silence) {
     if (!conversation_) return close(Closing{Cause::handshake_failed, "the TLS handshake was not finished in time"});
     if (!conversation_->admitted()) return close(Closing{Cause::no_call, "no call came in time"});

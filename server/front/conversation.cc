@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/front/replies.h"
+#include "server/limits.h"
 
 namespace axisgate::front {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr std::int64_t kPrefaceBytes = 24, kFrameHeadBytes = 9;  // RFC 9113, 3.4 and 4.1
 constexpr std::uint32_t kStreamWindow = 64 << 10;
 constexpr std::int32_t kConnectionWindow = 8 << 20;  // large enough that a few waiting requests do not block others
-constexpr Duration kSoon = std::chrono::seconds(1);
 
 SessionTerms terms_of(const FrontLimits& limits) {
   return {.list_bytes = limits.header_bytes,
@@ -52,13 +52,13 @@ Reply too_much_metadata(const FrontLimits& limits) {
 Reply too_much_waits() {
   return {.code = kResourceExhausted,
           .message = "the messages of this request are much longer unpacked, and come faster than they are taken",
-          .retry_after = kSoon};
+          .retry_after = server::kRetryAfter};
 }
 
 Reply too_many_open() {
   return {.code = kResourceExhausted,
           .message = "too many stops and lists are open on this connection (wait for some of them)",
-          .retry_after = kSoon};
+          .retry_after = server::kRetryAfter};
 }
 
 }  // namespace

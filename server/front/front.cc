@@ -11,11 +11,10 @@
 
 #include "server/access/access.h"
 #include "server/connections/callers.h"
+#include "server/limits.h"
 
 namespace axisgate::front {
 namespace {
-
-constexpr auto kCheck = std::chrono::milliseconds(250);
 
 // Detects within a minute that a client has disappeared without closing the connection.
 void notice_silence(int connection) {
@@ -125,7 +124,7 @@ void Front::look_whether_grpc_has_left() {
 
 void Front::check_later() {
   if (std::exchange(timer_runs_, true)) return;
-  timer_.expires_after(kCheck);
+  timer_.expires_after(server::kConnectionsCheck);
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (!error) check();
   });

@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <chrono>
 
+#include "server/limits.h"
+
 namespace axisgate::front {
-namespace {
-
-// Longest delay after refusals: it slows down a client that retries after each refusal. A longer debt counts as a
-// flood.
-constexpr Duration kRefusalsWait = std::chrono::seconds(2);
-
-}  // namespace
+namespace {}  // namespace
 
 Spending::Spending(const FrontLimits& limits, Sources& sources, const std::string& source, TimePoint now)
     : sources_(sources),
@@ -39,7 +35,7 @@ bool Spending::spend(Cost cost, double tokens, TimePoint now) {
   if (of_others > debt && !guaranteed_.take_if_there(cost, tokens, now)) debt = of_others;
   if (debt <= Duration::zero()) return true;
   const bool may_wait = cost == Cost::stream || cost == Cost::header_bytes || cost == Cost::unpacked ||
-                        (cost == Cost::refusal && debt < kRefusalsWait);
+                        (cost == Cost::refusal && debt < server::kRefusalsWaitMax);
   if (may_wait) not_before_ = std::max(not_before_, now + debt);
   return may_wait;
 }

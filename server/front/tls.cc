@@ -11,6 +11,7 @@
 
 #include "device/link/asio_tls.h"
 #include "server/access/access.h"
+#include "server/limits.h"
 #include "server/log.h"
 
 namespace axisgate::front {
@@ -18,7 +19,6 @@ namespace {
 
 namespace ssl = boost::asio::ssl;
 
-constexpr Duration kLookAgain = std::chrono::seconds(1);
 constexpr std::size_t kNameBytesMax = 64;  // X.520's upper bound of a common name
 
 // Selects HTTP/2 by ALPN (RFC 9113, 3.2).
@@ -118,7 +118,7 @@ TlsFiles::~TlsFiles() = default;
 // previous pair stays in use.
 std::shared_ptr<TlsFiles::Context> TlsFiles::newest() {
   const TimePoint now = monotonic_now();
-  if (context_ && now - looked_ < kLookAgain) return context_;
+  if (context_ && now - looked_ < server::kCertificateFileLook) return context_;
   looked_ = now;
   std::string seen = changed(network_.certificate) + changed(network_.key) + changed(network_.client_ca);
   if (context_ && seen == seen_) return context_;

@@ -7,12 +7,10 @@
 
 #include "server/access/access.h"
 #include "server/access/synced_file.h"
+#include "server/limits.h"
 
 namespace axisgate::server::journal {
 namespace {
-
-// Limit for waiting on a lock; a reader blocks the writer only for moments.
-constexpr int kBusyMilliseconds = 2000;
 
 tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
   const char* path = database == nullptr ? nullptr : sqlite3_db_filename(database, "main");
@@ -105,7 +103,7 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, vfs);
   Database database(opened);
   if (code != SQLITE_OK) return tl::unexpected(Unopened{unopened(opened, path)});
-  sqlite3_busy_timeout(opened, kBusyMilliseconds);
+  sqlite3_busy_timeout(opened, static_cast<int>(kDatabaseLockWait.count()));
   sqlite3_create_function_v2(opened, "identity_of", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, identity_function,
                              nullptr, nullptr, nullptr);
   if (access == Access::read) return database;
@@ -132,7 +130,7 @@ Result<void> Database::run(const char* sql) {
 Result<void> Database::empty_log() {
   sqlite3_busy_timeout(database_.get(), 0);
   const int code = sqlite3_wal_checkpoint_v2(database_.get(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
-  sqlite3_busy_timeout(database_.get(), kBusyMilliseconds);
+  sqlite3_busy_timeout(database_.get(), static_cast<int>(kDatabaseLockWait.count()));
   if (code != SQLITE_OK) return failed(database_.get(), "emptying its log");
   return {};
 }

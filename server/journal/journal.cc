@@ -12,15 +12,11 @@
 
 #include "device/core/explain.h"
 #include "device/link/clock.h"
+#include "server/limits.h"
 #include "server/log.h"
 
 namespace axisgate::server::journal {
 namespace {
-
-constexpr auto kDropPause = std::chrono::minutes(10);
-constexpr auto kRetry = std::chrono::seconds(1);
-constexpr auto kCatchingUp = std::chrono::seconds(1);  // longest time that a reader waits for a disk that hangs
-constexpr auto kErasing = std::chrono::seconds(10);    // longest time that erasing waits, so that the daemon can end
 
 Entry own_entry(EntryKind kind, std::string body) {
   return {
@@ -155,7 +151,7 @@ void Journal::keep(FactPointer fact, std::uint64_t oldest) {
 }
 
 std::optional<Problem> Journal::unavailable() const {
-  const bool hangs = writing_since_ && monotonic_now() - *writing_since_ > kHangs;
+  const bool hangs = writing_since_ && monotonic_now() - *writing_since_ > kCommitHangs;
   if (!failure_ && !hangs && waiting_.size() < kWaitingMax) return std::nullopt;
   return Problem{.reason = Reason::journal_unavailable,
                  .message = failure_ ? failure_->message : fmt::format("the disk of {} does not answer", path_),
@@ -182,7 +178,7 @@ std::optional<Problem> Journal::failure() const {
 Duration Journal::last_commit() const {
   const std::lock_guard lock(mutex_);
   const Duration now = writing_since_ ? monotonic_now() - *writing_since_ : Duration::zero();
-  return now > kHangs ? now : last_commit_;
+  return now > kCommitHangs ? now : last_commit_;
 }
 
 void Journal::run() {
@@ -222,7 +218,7 @@ void Journal::drop_old() {
   const TimePoint now = monotonic_now();
   if (now < next_drop_) return;
   const Result<bool> dropped = store_->drop_old(bounds_, own_entry(EntryKind::entries_dropped, ""));
-  if (!dropped.value_or(false)) next_drop_ = now + kDropPause;
+  if (!dropped.value_or(false)) next_drop_ = now + kJournalDropPause;
 }
 
 bool Journal::write(Batch batch) {
@@ -245,7 +241,7 @@ bool Journal::write(Batch batch) {
     }
     writing_since_.reset();
     changed_.notify_all();
-    if (changed_.wait_for(lock, kRetry, [this] { return ending_; })) return false;
+    if (changed_.wait_for(lock, kJournalRetry, [this] { return ending_; })) return false;
     writing_since_ = monotonic_now();
   }
 }
@@ -294,7 +290,7 @@ Result<std::optional<NamedPerson>> Journal::erase(const std::string& name, const
   const auto written = std::make_shared<std::promise<Result<void>>>();
   commit({std::move(entry), {}, (*person)->number}, [written](Result<void> result) { written->set_value(result); });
   auto answer = written->get_future();
-  if (answer.wait_for(kErasing) != std::future_status::ready) {
+  if (answer.wait_for(kJournalErasing) != std::future_status::ready) {
     return fail(Reason::journal_unavailable, fmt::format("the disk of {} does not answer", path_),
                 "the name is erased when it does, unless the daemon ends before");
   }
@@ -304,7 +300,7 @@ Result<std::optional<NamedPerson>> Journal::erase(const std::string& name, const
 
 Result<void> Journal::catch_up() const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
+  changed_.wait_for(lock, kJournalCatchUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
   if (!store_) return tl::unexpected(*failure_);
   return {};
 }

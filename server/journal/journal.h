@@ -15,18 +15,15 @@
 #include "server/journal/refusal_budget.h"
 #include "server/journal/store.h"
 #include "server/journal/summary.h"
+#include "server/limits.h"
 
 namespace axisgate::server::journal {
 
 // Thread safe. Entries that are appended while others are written are committed together.
 class Journal {
  public:
-  // Duration after which an unfinished commit counts as hanging: commit() then refuses until the commit has returned.
-  static constexpr Duration kHangs = std::chrono::seconds(2);
   // Maximum number of entries that wait for the disk. Further entries are left out, and the journal says how many.
   static constexpr std::size_t kWaitingMax = 10'000;
-  // Time that facts wait for an entry, so that a path's many facts do not sync the disk one by one.
-  static constexpr Duration kFactsWait = std::chrono::milliseconds(100);
 
   // Opens the file like Store::open(). A damaged file is moved aside with an error in the log that names it, and a new
   // file begins. `boot` names this boot of the machine; empty if unknown.
@@ -64,7 +61,7 @@ class Journal {
   // Returns why nothing can be written now; nullopt while the disk accepts records.
   std::optional<Problem> failure() const;
 
-  // Duration of the last commit. While a commit takes longer than kHangs: its duration up to now.
+  // Duration of the last commit. While a commit takes longer than kCommitHangs: its duration up to now.
   Duration last_commit() const;
 
   bool is_open() const { return store_.has_value(); }

@@ -37,7 +37,7 @@ std::vector<Entry> RefusalBudget::add(Entry refusal, TimePoint now) {
 
 std::vector<Entry> RefusalBudget::due(TimePoint now) {
   std::vector<Entry> sums;
-  while (!began_.empty() && now - began_.front().first >= kWithin) end_oldest(sums);
+  while (!began_.empty() && now - began_.front().first >= kRefusalPeriod) end_oldest(sums);
   return sums;
 }
 
@@ -55,7 +55,7 @@ void RefusalBudget::end_oldest(std::vector<Entry>& sums) {
 }
 
 std::optional<TimePoint> RefusalBudget::next_due() const {
-  return began_.empty() ? std::nullopt : std::optional(began_.front().first + kWithin);
+  return began_.empty() ? std::nullopt : std::optional(began_.front().first + kRefusalPeriod);
 }
 
 }  // namespace axisgate::server::journal

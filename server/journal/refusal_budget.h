@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "server/journal/entry.h"
+#include "server/limits.h"
 
 namespace axisgate::server::journal {
 
@@ -21,7 +22,6 @@ class RefusalBudget {
   // Number of refusals of one identity (access/identity_of) that have entries, within a period that begins with its
   // first refusal.
   static constexpr std::int64_t kEntries = 60;
-  static constexpr Duration kWithin = std::chrono::minutes(10);
   // Maximum number of identities at once. A further identity ends the oldest period early.
   static constexpr std::size_t kIdentitiesMax = 1000;
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/api/stage/targets.h"
+#include "server/limits.h"
 
 namespace axisgate::proto {
 namespace {
@@ -112,8 +113,7 @@ Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::pro
 }
 
 Duration to_span(const google::protobuf::Duration& duration) {
-  constexpr Duration kSpanMax = std::chrono::hours(24);
-  return std::clamp<Duration>(to_duration(duration), Duration::zero(), kSpanMax);
+  return std::clamp<Duration>(to_duration(duration), Duration::zero(), server::kSpanMax);
 }
 
 Duration to_duration(const google::protobuf::Duration& duration) {

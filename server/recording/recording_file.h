@@ -12,6 +12,7 @@
 
 #include "device/core/time.h"
 #include "device/link/descriptor.h"
+#include "server/limits.h"
 #include "server/recording/recorder.h"
 
 namespace axisgate::server {
@@ -22,10 +23,9 @@ namespace axisgate::server {
 // previous PATH.1, and a new file begins with the lines that the ring keeps.
 class RecordingFile {
  public:
-  static constexpr Duration kRetryPause = std::chrono::seconds(5);
-
   // Records all lines that the ring keeps, and all later ones. `recorder` must outlive this object.
-  RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max, Duration retry_pause = kRetryPause)
+  RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max,
+                Duration retry_pause = kRecordingRetryPause)
       : RecordingFile(std::move(path), recorder, bytes_max, retry_pause, recorder.ring().oldest()) {}
   // Writes the remaining lines, if the file can be written.
   ~RecordingFile();

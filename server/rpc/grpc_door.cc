@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/limits.h"
 #include "server/log.h"
 #include "server/rpc/calls/half_close.h"
 #include "server/rpc/calls/queue_waker.h"
@@ -23,8 +24,6 @@
 
 namespace axisgate::rpc {
 namespace {
-
-constexpr auto kShutdownWait = std::chrono::milliseconds(500);
 
 // gRPC's log lines add no information to the daemon's, so they are logged at debug level only.
 void log_quietly(gpr_log_func_args* line) { server::log::debug("gRPC: {}", line->message); }
@@ -129,7 +128,7 @@ void GrpcDoor::Members::enter(Descriptor connection) {
 void GrpcDoor::Members::end() {
   waker_.reset();
   if (grpc_ == nullptr || std::exchange(ended_, true)) return;
-  grpc_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
+  grpc_->Shutdown(std::chrono::system_clock::now() + server::kGrpcShutdown);
   grpc_->Wait();
 }
 

@@ -52,7 +52,7 @@ class TokenRetryTest : public ::testing::Test {
   std::unique_ptr<server::Tokens> tokens_ = *server::Tokens::open(folder_ + "/tokens");
   std::deque<std::function<void()>> tasks_;
   std::shared_ptr<TokenRetry> retry_ = TokenRetry::make(*tokens_, [this](Duration wait, std::function<void()> task) {
-    EXPECT_EQ(wait, TokenRetry::kPause);
+    EXPECT_EQ(wait, server::kTokenRetryPause);
     tasks_.push_back(std::move(task));
   });
 };

@@ -210,7 +210,7 @@ void Retries::arrive(const MessagePtr& message) {
   if (!*begun) return;
   const auto mutation = std::make_shared<Mutation>(*daemon_, **begun);
   const Result<void> kept = mutation->intend(world_.now());
-  const Duration waits = kept ? milliseconds(world_.random().between(0, 60)) : server::journal::Journal::kHangs;
+  const Duration waits = kept ? milliseconds(world_.random().between(0, 60)) : server::kCommitHangs;
   later(waits, [this, message, mutation, kept] {
     if (!kept) return refuse(message, *mutation, kept.error());
     const auto in_time = api::check_deadline(message->wanted.kind, message->context, world_.now());

@@ -325,7 +325,7 @@ def _literals(file):
 
 def command_literals(files):
     by_file = collections.Counter()
-    for file in _gateway_side(files, "device/shrc203/", "server/"):
+    for file in _gateway_side(files, "device/shrc203/", "device/shot/", "server/"):
         if _COMMAND_ROOM.match(file.path):
             continue
         for before, text in _literals(file):
@@ -338,7 +338,7 @@ def command_literals(files):
 
 
 def largest_context(files):
-    side = _gateway_side(files, "device/shrc203/")
+    side = _gateway_side(files, "device/shrc203/", "device/shot/")
     contexts = [found for found in _classes(side) if found.name.endswith(("Context", "Impl"))]
     if not contexts:
         return [Figure(name, None, "no class is called ...Context or ...Impl")
@@ -349,7 +349,7 @@ def largest_context(files):
         use = rf"\b{largest.name}::|\bimpl_\."
     users = [file for file in side if file.path.endswith(".cc") and re.search(use, _code(file))]
     return [Figure("largest_context_members", len(largest.members), f"{largest.name} in {largest.path}"),
-            Figure("largest_context_files", len(users), f"of .cc in device/shrc203 that use {largest.name}")]
+            Figure("largest_context_files", len(users), f"of .cc in device/shot and device/shrc203 that use {largest.name}")]
 
 
 def _counted(found):
@@ -358,7 +358,7 @@ def _counted(found):
 
 def link_state_writes(files):
     found = collections.Counter()
-    for file in _gateway_side(files, "device/shrc203/"):
+    for file in _gateway_side(files, "device/shrc203/", "device/shot/"):
         if number := len(_LINK_WRITE.findall(_code(file))):
             found[file.path] = number
     return [Figure("link_state_writes", found.total(), _counted(found))]
@@ -374,10 +374,10 @@ def empty_problem_rows(files):
 
 def duration_constants(files):
     found = collections.Counter()
-    for file in _gateway_side(files, "device/shrc203/"):
+    for file in _gateway_side(files, "device/shrc203/", "device/shot/"):
         for match in _DURATION.finditer(_code(file)):
             found[file.path] += len(_bare(match[1]).split(","))
-    return [Figure("duration_constants", found.total(), "constexpr Duration in device/shrc203, one a name"),
+    return [Figure("duration_constants", found.total(), "constexpr Duration in device/shot and device/shrc203, one a name"),
             Figure("duration_constant_files", len(found), "files that define one")]
 
 

@@ -138,7 +138,7 @@ class CommandLiterals(Tree):
     def test_what_looks_like_a_command(self):
         for text in ("D:", "?:MODE", "!:S", "!:", "GC:", "MS:ON", "*IDN?", "EP:3", "?:CMD\\r\\n", "PIT:GET,3"):
             self.assertEqual(self.count(f'b("{text}");'), 1, text)
-        self.assertEqual(self.count('command_row("G"); make_command("G", c); b("G");'), 2)
+        self.assertEqual(self.count('model().row("G"); model().make("G", c); b("G");'), 2)
         self.assertEqual(self.count('b(c ? "D:" : "J:", "say \\"D:\\"");'), 2)
 
     def test_what_does_not(self):

@@ -8,6 +8,9 @@ _CLOCK = re.compile(
     r"\b\w*[cC]lock\s*::\s*now\b|\bclock_gettime\s*\(|\bgettimeofday\s*\("
     r"|\btime\s*\(\s*(?:nullptr|NULL|0)\s*\)"
 )
+# A constant duration, which in the server has one place.
+_LIMIT = re.compile(r"\bconstexpr\s+(?:auto|Duration|std::chrono::\w+)\s+k\w+\s*[=({]\s*std::chrono::")
+_LIMITS = "server/limits.h"
 _CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/", "tests/clock/")
 _ASIO_FOLDERS = ("device/link/", "server/", "clients/")
 _DAEMON = "server/axisgated.cc"  # its main(): joins the doors to the gateway
@@ -38,8 +41,8 @@ _KIND = "device/shrc203/kind.cc"
 _MILL_KIND = ("device/rml1/kind.cc", "device/rml1/model.cc")
 # What still points upward, by file: a list that only shrinks.
 _EXCEPTIONS = {("server/config/network.cc", "server/connections/certificates.h")}
-# Plain files of server/ that every room of it may include: explanations for people, and the log.
-_FOR_ALL_OF_SERVER = ("device/core/explain.h", "server/log.h")
+# Plain files of server/ that every room of it may include: explanations for people, the log, and all time limits.
+_FOR_ALL_OF_SERVER = ("device/core/explain.h", "server/log.h", "server/limits.h")
 
 
 def room_of(path):
@@ -99,6 +102,7 @@ def check(file, files):
         yield from _check_target(file, number, posixpath.normpath(target))
         yield from _check_what_it_includes(file, number, posixpath.normpath(target), files)
     yield from _check_clock(file)
+    yield from _check_limits(file)
 
 
 def _reached_from(target, files):
@@ -191,3 +195,11 @@ def _check_clock(file):
         if match := _CLOCK.search(code):
             yield file.finding(number, "time-is-injected", f"{match.group()} reads a clock",
                                "take the time as a parameter, or where real time is meant, from device/link/clock.h")
+
+
+def _check_limits(file):
+    if not file.path.startswith("server/") or file.path == _LIMITS:
+        return
+    for number, code in enumerate(file.code, start=1):
+        if match := _LIMIT.search(code):
+            yield file.finding(number, "server-limit", f"{match.group()} is a duration", f"move it to {_LIMITS}")

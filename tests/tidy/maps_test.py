@@ -42,8 +42,8 @@ class Folders(unittest.TestCase):
 
 class Floors(unittest.TestCase):
     def test_the_overview_says_the_floors(self):
-        controller = "types < command < line < {planning, recording} < state < session < motion < transaction"
-        right = f"core/ link/ rpc/ core < link < server < server/rpc < clients\nevents/ events\n{controller}\n"
+        controller = "types < command < {planning, recording} < state < session < motion < transaction"
+        right = f"core/ link/ rpc/ core < link < server < server/rpc < clients\nevents/ events\ntypes < command < line\n{controller}\n"
         tree = {"device__core__a_DOT_h": "", "device__link__a_DOT_h": "", "server__rpc__a_DOT_h": "",
                 "server__events__a_DOT_h": ""}
         self.assertEqual(findings(docs__developing_DOT_md=right, **tree), [])

@@ -86,7 +86,7 @@ class Floors(Tree):
             ("server/api/a.cc", "server/rpc/b.h"),
             ("server/config/a.cc", "server/recording/b.h"),
             ("device/stage/a.cc", "device/shrc203/b.h"),
-            ("device/shrc203/command/a.cc", "device/shot/line/b.h"),
+            ("device/shot/command/a.cc", "device/shot/line/b.h"),
             ("device/shrc203/state/a.cc", "device/shrc203/session/b.h"),
             ("device/shrc203/session/a.cc", "device/shrc203/motion/b.h"),
             ("device/shrc203/session/a.cc", "device/shrc203/controller.h"),
@@ -193,7 +193,7 @@ class SimulatorApart(Tree):
             self.assert_include("device/shrc203/simulator/program/a.cc", target, "simulator-apart")
 
     def test_each_side_may_use_its_own(self):
-        self.assert_include("device/shot/line/a.cc", "device/shrc203/command/command_table.h")
+        self.assert_include("device/shrc203/session/a.cc", "device/shrc203/command/command_table.h")
         self.assert_include("device/shrc203/simulator/a.cc", "device/shrc203/simulator/options.h")
 
 

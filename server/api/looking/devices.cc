@@ -100,7 +100,7 @@ Opened<DeviceState> Devices::watch(const Call& call, std::string_view device, Du
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::watch_device, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
-  return std::make_shared<DeviceWatch>(gateway_, *admitted->device, std::max(kIntervalMin, min_interval),
+  return std::make_shared<DeviceWatch>(gateway_, *admitted->device, std::max(server::kWatchIntervalMin, min_interval),
                                        *std::move(place));
 }
 

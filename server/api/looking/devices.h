@@ -17,6 +17,7 @@
 #include "server/api/request/pipeline.h"
 #include "server/api/request/subscription.h"
 #include "server/gateway.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 
@@ -43,8 +44,6 @@ using DeviceNow = std::variant<StageNow, MillState>;
 // Thread safe.
 class Devices {
  public:
-  static constexpr Duration kIntervalMin = std::chrono::milliseconds(10);
-
   // The referenced objects must outlive this one.
   Devices(server::Gateway& gateway, const Admission& admission, const Pipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
@@ -56,7 +55,8 @@ class Devices {
   // device must be read and is not up. A mill is never read, because it never answers.
   void get(const Call& call, std::string_view device, std::optional<Duration> max_age, Answer<DeviceNow> answer) const;
 
-  // Streams the newest state at every change, at most once per `min_interval`, which is at least kIntervalMin.
+  // Streams the newest state at every change, at most once per `min_interval`, which is at least
+  // server::kWatchIntervalMin.
   Opened<DeviceState> watch(const Call& call, std::string_view device, Duration min_interval) const;
 
   // Clears the errors of the axes; empty: all. Fails with unknown_axis or link_down, and as the device refuses it.

@@ -10,6 +10,7 @@
 #include "device/core/escape.h"
 #include "device/link/clock.h"
 #include "server/events/wall_time.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 namespace {
@@ -20,8 +21,6 @@ using server::Role;
 using use::RequestContext;
 
 constexpr std::size_t kRequestIdMax = 128;
-constexpr Duration kMotionValid = std::chrono::seconds(5);
-constexpr Duration kRequestValid = std::chrono::seconds(20);
 
 std::optional<IdentityLimits::Kind> counted_as(RequestKind kind) {
   switch (rule_of(kind).quota) {
@@ -38,8 +37,8 @@ std::optional<IdentityLimits::Kind> counted_as(RequestKind kind) {
 }
 
 TimePoint without_not_after(DeadlineRule rule, const Call& call) {
-  if (rule == DeadlineRule::motion) return monotonic_now() + kMotionValid;
-  return call.deadline.value_or(monotonic_now() + kRequestValid);
+  if (rule == DeadlineRule::motion) return monotonic_now() + server::kMotionStartLimit;
+  return call.deadline.value_or(monotonic_now() + server::kRequestLimit);
 }
 
 // Returns the time until which the request counts: the call's deadline at the latest.

@@ -27,7 +27,7 @@ class Waiting {
   explicit Waiting(Mutation::Then then) : then_(std::move(then)) {}
 
   void start(server::Timeouts& timeouts, std::function<void()> hangs) {
-    timeout_ = timeouts.unless_dropped(Journal::kHangs, std::move(hangs));
+    timeout_ = timeouts.unless_dropped(server::kCommitHangs, std::move(hangs));
   }
   void answer(const Result<void>& written) {
     if (!answered_.exchange(true)) then_(written);

@@ -8,6 +8,7 @@
 
 #include "server/api/request/names.h"
 #include "server/api/stage/targets.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 namespace {
@@ -16,8 +17,6 @@ using server::Lease;
 using server::LeaseTerms;
 using LeaseTurn = TurnOf<server::Device>;
 
-constexpr Duration kWaitMax = std::chrono::hours(24);
-constexpr Duration kExpectedUseMax = std::chrono::hours(24 * 365);
 constexpr std::size_t kPurposeMax = 200;
 
 // Checks a span with a resolution of 1 s: less than 1 s beyond `most` counts as `most`.
@@ -30,16 +29,16 @@ Result<Duration> check_span(Duration span, Duration most, std::string_view field
 
 Result<void> fill_times(const LeaseWish& wish, LeaseTerms& terms) {
   if (wish.time_to_live) {
-    const auto live = check_span(*wish.time_to_live, LeaseTerms::kTimeToLiveMax, "terms.time_to_live");
+    const auto live = check_span(*wish.time_to_live, server::kLeaseTimeToLiveMax, "terms.time_to_live");
     if (!live) return tl::unexpected(live.error());
-    if (*live < LeaseTerms::kTimeToLiveMin) {
+    if (*live < server::kLeaseTimeToLiveMin) {
       return fail(Reason::invalid_request, "terms.time_to_live is shorter than 1 s",
                   "a lease that must be renewed so often would be lost by chance");
     }
     terms.time_to_live = *live;
   }
   if (!wish.expected_use) return {};
-  const auto use = check_span(*wish.expected_use, kExpectedUseMax, "terms.expected_use");
+  const auto use = check_span(*wish.expected_use, server::kLeaseExpectedUseMax, "terms.expected_use");
   if (!use) return tl::unexpected(use.error());
   terms.expected_use = *use;
   return {};
@@ -120,7 +119,8 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
                      const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<server::Device*> found = find_device(gateway_, device);
   const Result<LeaseTerms> terms = checked_terms(wish, found);
-  const Result<Duration> waits = terms ? check_span(wait, kWaitMax, "wait") : tl::unexpected(terms.error());
+  const Result<Duration> waits =
+      terms ? check_span(wait, server::kLeaseWaitMax, "wait") : tl::unexpected(terms.error());
   pipeline_.ask({RequestKind::acquire_lease, call, found, fault_of(waits)}, answering(seeker),
                 [seeker, terms, wait = waits.value_or(Duration()), validate_only = call.validate_only](
                     const LeaseTurn& turn, const Answer<std::optional<Lease>>& respond) {

@@ -10,13 +10,13 @@ std::shared_ptr<TokenRetry> TokenRetry::make(server::Tokens& tokens, After after
 
 void TokenRetry::start(const Problem& why) {
   server::log::warn("{}; the revocation holds, and writing it is tried again every {} s", why.message,
-                    std::chrono::duration_cast<std::chrono::seconds>(kPause).count());
+                    std::chrono::duration_cast<std::chrono::seconds>(server::kTokenRetryPause).count());
   try_later();
 }
 
 void TokenRetry::try_later() {
   if (waiting_.exchange(true)) return;
-  after_(kPause, [self = shared_from_this()] {
+  after_(server::kTokenRetryPause, [self = shared_from_this()] {
     // Reset before the attempt: a revocation that fails meanwhile schedules another one.
     self->waiting_ = false;
     const Result<bool> written = self->tokens_.write_again();

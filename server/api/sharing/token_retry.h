@@ -9,13 +9,13 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "server/access/tokens.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 
 // Thread safe. Logs when the attempts begin, and when the tokens are on the disk.
 class TokenRetry : public std::enable_shared_from_this<TokenRetry> {
  public:
-  static constexpr Duration kPause = std::chrono::seconds(2);
   using After = std::function<void(Duration, std::function<void()>)>;  // Gateway::after()
 
   // `tokens` must outlive the tasks that are passed to `after`; this object need not.

@@ -8,18 +8,17 @@
 
 #include "server/api/request/audit.h"
 #include "server/events/wall_time.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 namespace {
 
 using server::Calendar;
 
-constexpr auto kLife = std::chrono::days(90);
-
 // Returns the life limited to just above the maximum, so that adding it to a time cannot overflow.
 std::chrono::seconds life_of(const NewToken& wanted) {
-  const std::chrono::seconds longest = server::Tokens::kLifeMax + std::chrono::seconds(1);
-  return std::clamp(wanted.life.value_or(kLife), std::chrono::seconds(0), longest);
+  const std::chrono::seconds longest = server::kTokenLifeMax + std::chrono::seconds(1);
+  return std::clamp(wanted.life.value_or(server::kTokenLife), std::chrono::seconds(0), longest);
 }
 
 // Returns an error although the token is refused from now on, because a restart of the daemon would accept it again.

@@ -20,7 +20,7 @@ namespace axisgate::api {
 struct NewToken {
   std::string name;
   server::Role role = server::Role::operator_;
-  // At most server::Tokens::kLifeMax; nullopt: 90 days.
+  // At most server::kTokenLifeMax; nullopt: 90 days.
   std::optional<std::chrono::seconds> life{};
 };
 

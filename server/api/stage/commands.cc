@@ -11,6 +11,7 @@
 #include "server/api/request/names.h"
 #include "server/api/request/request_texts.h"
 #include "server/journal/answers.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 namespace {
@@ -19,11 +20,6 @@ using stage::ExecuteEvent;
 
 constexpr std::size_t kLinesMax = 100;
 constexpr std::size_t kLineBytesMax = 256;
-constexpr Duration kTimeout = std::chrono::seconds(20);
-constexpr Duration kTimeoutMax = std::chrono::minutes(10);
-
-// Extra time for the controller to report a more exact problem than a timeout.
-constexpr Duration kTimeoutGrace = std::chrono::milliseconds(100);
 
 // Checks only the limits of this subject; the controller checks the lines themselves.
 Result<void> check_lines(const std::vector<std::string>& lines) {
@@ -40,7 +36,7 @@ Result<void> check_lines(const std::vector<std::string>& lines) {
 }
 
 Result<void> check_timeout(Duration timeout) {
-  if (timeout > Duration::zero() && timeout <= kTimeoutMax) return {};
+  if (timeout > Duration::zero() && timeout <= server::kExecuteLimitMax) return {};
   return fail(Reason::out_of_range, "timeout is not above 0 and at most 10 minutes");
 }
 
@@ -62,7 +58,7 @@ class Execution final : public Subscription<ExecuteEvent> {
         call_(std::move(call)),
         device_(*admitted.device),
         request_{std::move(transaction.lines), admitted.context},
-        timeout_(transaction.timeout.value_or(kTimeout)) {}
+        timeout_(transaction.timeout.value_or(server::kRequestLimit)) {}
 
  private:
   void begin() override {
@@ -74,9 +70,10 @@ class Execution final : public Subscription<ExecuteEvent> {
         self->execute(controller, now, nullptr);
       });
     }
-    time_out_ = gateway_.timeouts().unless_dropped(timeout_ + kTimeoutGrace, [waiting = weak_from_this(), this] {
-      if (const auto still = waiting.lock()) end(timed_out(timeout_));
-    });
+    time_out_ =
+        gateway_.timeouts().unless_dropped(timeout_ + server::kExecuteGrace, [waiting = weak_from_this(), this] {
+          if (const auto still = waiting.lock()) end(timed_out(timeout_));
+        });
   }
 
   void change() {
@@ -170,7 +167,7 @@ Result<void> Commands::check(const Transaction& transaction, const server::Calle
   for (const std::string& line : transaction.lines) {
     if (const auto allowed = check_line(access_, line, caller); !allowed) return allowed;
   }
-  return check_timeout(transaction.timeout.value_or(kTimeout));
+  return check_timeout(transaction.timeout.value_or(server::kRequestLimit));
 }
 
 Opened<ExecuteEvent> Commands::execute(const Call& call, std::string_view device, Transaction transaction) const {
@@ -182,7 +179,8 @@ Opened<ExecuteEvent> Commands::execute(const Call& call, std::string_view device
     if (!checked) return tl::unexpected(checked.error());
     return nullptr;
   }
-  if (!call.not_after) admitted->context.not_after = monotonic_now() + transaction.timeout.value_or(kTimeout);
+  if (!call.not_after)
+    admitted->context.not_after = monotonic_now() + transaction.timeout.value_or(server::kRequestLimit);
   Result<Streams::Place> place = streams_.take(RequestKind::execute, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Execution>(gateway_, pipeline_, call, *admitted, std::move(transaction), *std::move(place));

@@ -9,14 +9,12 @@
 
 #include "server/api/request/names.h"
 #include "server/api/request/request_texts.h"
+#include "server/limits.h"
 
 namespace axisgate::api {
 namespace {
 
 using stage::ExecuteEvent;
-
-// Time limit for answers. A setting that cannot be read while an axis moves keeps its last known value.
-constexpr Duration kAnswerLimit = std::chrono::seconds(2);
 
 bool is_unread(const Problem& problem) {
   return problem.reason == Reason::completion_outstanding || problem.reason == Reason::deadline_passed;
@@ -75,7 +73,7 @@ class Asking {
 
 void ask_all(const Turn& turn, const std::shared_ptr<Asking>& asking) {
   use::RequestContext limited = turn.context;
-  limited.not_after = std::min(limited.not_after, turn.now + kAnswerLimit);
+  limited.not_after = std::min(limited.not_after, turn.now + server::kSettingAnswerLimit);
   for (const std::string_view question : turn.device.kind().setting_questions()) {
     turn.controller.execute({{std::string(question)}, limited}, turn.now,
                             [asking, question, &controller = turn.controller](const ExecuteEvent& event) {

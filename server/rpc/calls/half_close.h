@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/gateway.h"
+#include "server/limits.h"
 
 namespace axisgate::rpc {
 
@@ -16,13 +17,11 @@ class HalfClose {
   // `gateway` must outlive this object.
   explicit HalfClose(server::Gateway& gateway) : gateway_(gateway) {}
 
-  // Calls `then` on the readers' thread after kBreakOffWait. By then, gRPC has cancelled the call of a client that
-  // broke off.
-  void wait(std::function<void()> then) const { gateway_.timeouts().after(kBreakOffWait, std::move(then)); }
+  // Calls `then` on the readers' thread after server::kBreakOffWait. By then, gRPC has cancelled the call of a client
+  // that broke off.
+  void wait(std::function<void()> then) const { gateway_.timeouts().after(server::kBreakOffWait, std::move(then)); }
 
  private:
-  static constexpr Duration kBreakOffWait = std::chrono::milliseconds(10);
-
   server::Gateway& gateway_;
 };
 

@@ -4,11 +4,11 @@
 
 #include <chrono>
 
+#include "server/limits.h"
+
 namespace axisgate::rpc {
 namespace {
 
-// Short enough that even a late wake-up comes within the second. Each wake-up costs an idle daemon 0.1 % of a CPU.
-constexpr Duration kPause = std::chrono::milliseconds(700);
 // Unserved method, so the calls are neither counted nor logged.
 constexpr const char* kMethod = "/axisgate.QueueWaker/Wake";
 
@@ -20,7 +20,7 @@ class QueueWaker::Rounds : public std::enable_shared_from_this<Rounds> {
       : stub_(itself), timeouts_(timeouts) {}
 
   void next() {
-    timeouts_.after(kPause, [weak = weak_from_this()] {
+    timeouts_.after(server::kQueueWakeUp, [weak = weak_from_this()] {
       const auto self = weak.lock();
       if (!self) return;
       self->wake();
