@@ -1,4 +1,4 @@
-"""Pages that name folders, files, floors and threads name the ones that exist, and all of them."""
+"""Pages that name folders, files, floors, threads and alerts name the ones that exist, and all of them."""
 
 import fnmatch
 import pathlib
@@ -9,6 +9,7 @@ import includes
 
 _OVERVIEW = "docs/developing.md"
 _THREADS = "server/README.md"
+_ALERTS, _ALERT_RULES = "docs/container.md", "deploy/prometheus/alerts.yml"
 _TOPS = ("proto/", "server/", "device/", "clients/", "deploy/", "tests/", "docs/")
 # Folders whose subfolders their own README lists; those of the first three are in the overview, too.
 _MAPPED = ("server", "device", "clients/axisctl", "tests")
@@ -18,6 +19,8 @@ _WITHOUT_PATHS = ("GLOSSARY.md",)
 _CODE = re.compile(r"`([^`\s]+)`")
 _FILE = re.compile(r"[a-z][\w/]*\.(?:\*|cc|h|py|proto)")
 _LINK = re.compile(r"\]\(([^)#\s:]+)(?:#[^)]*)?\)")
+_ALERT = re.compile(r"^\s*- alert: (\w+)$", flags=re.MULTILINE)
+_ALERT_ROW = re.compile(r"^\| `(Axisgate\w+)` \|", flags=re.MULTILINE)
 _THREAD = re.compile(r"\b(?:std::thread|thread_pool>) \w+(?:, \w+)*;")
 
 
@@ -37,6 +40,9 @@ def check_all(files):
                 yield from _check_folders(page, parent, folders)
     if _THREADS in pages:
         yield from _check_threads(pages[_THREADS], files)
+    rules = next((file for file in files if file.path == _ALERT_RULES), None)
+    if rules and _ALERTS in pages:
+        yield from _check_alerts(pages[_ALERTS], rules)
 
 
 def _check_names(page, paths, folders):
@@ -119,3 +125,11 @@ def _check_threads(page, files):
             if f"`{name}.*`" not in page.content:
                 yield page.finding(1, "map-threads", f"the page does not name the thread of `{name}.*`",
                                    "add it to the list of threads")
+
+
+def _check_alerts(page, rules):
+    there, named = _ALERT.findall(rules.content), _ALERT_ROW.findall(page.content)
+    if there != named:
+        odd = sorted(set(there) ^ set(named)) or ["their order"]
+        yield page.finding(1, "map-alerts", f"the table of alerts differs from {rules.path}: {', '.join(odd)}",
+                           "list the alerts as the rules do")

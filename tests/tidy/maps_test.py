@@ -60,5 +60,15 @@ class Threads(unittest.TestCase):
                              ["map-threads"])
 
 
+class Alerts(unittest.TestCase):
+    def test_the_table_has_each_alert(self):
+        rules = "rules:\n  - alert: AxisgateDown\n    expr: up == 0\n  - alert: AxisgateStopOpen\n"
+        right = "| `AxisgateDown` | x |\n| `AxisgateStopOpen` | x |\n"
+        tree = {"deploy__prometheus__alerts_DOT_yml": rules}
+        self.assertEqual(findings(docs__container_DOT_md=right, **tree), [])
+        for wrong in ("| `AxisgateDown` | x |\n", right + "| `AxisgateUp` | x |\n", "\n".join(right.split("\n")[::-1])):
+            self.assertEqual(findings(docs__container_DOT_md=wrong, **tree), ["map-alerts"], wrong)
+
+
 if __name__ == "__main__":
     unittest.main()
