@@ -28,4 +28,7 @@ struct Inheritance {
   StopId last_stop = 0;
 };
 
+// Returns what concerns `axes`. A record may name others: it was damaged, or the device was of another kind.
+Inheritance within(AxisSet axes, Inheritance left);
+
 }  // namespace axisgate::stage

@@ -36,8 +36,8 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
              EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
              std::unique_ptr<MotionRecord> record, std::unique_ptr<StopRecord> stops, journal::Journal* journal,
              journal::RequestMemory& requests)
-    : Device(device.name, recording_header(profile_of(device, config)), std::move(line), thread, metrics, readers,
-             lease_tokens, journal),
+    : Device(device.name, recording_header(profile_of(device, config), config.kind->name()), std::move(line), thread,
+             metrics, readers, lease_tokens, journal),
       kind_(*config.kind),
       profile_(profile_of(device, config)),
       newest_state_(readers),
@@ -56,7 +56,7 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
 void Stage::inherit() {
   stage::Inheritance left = stops_ ? stops_->before() : stage::Inheritance{};
   if (record_) left.unfinished = record_->unfinished();
-  controller_->inherit(left, monotonic_now());
+  controller_->inherit(stage::within(stage::AxisSet::in(whole()), std::move(left)), monotonic_now());
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {

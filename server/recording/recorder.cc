@@ -16,8 +16,9 @@ constexpr std::size_t kPortionBytes = 16 << 10;
 
 }  // namespace
 
-stage::RecordingHeader recording_header(const stage::Profile& profile) {
+stage::RecordingHeader recording_header(const stage::Profile& profile, std::string_view kind) {
   stage::RecordingHeader header;
+  header.kind = kind;
   header.device = profile.name;
   header.serial_number = profile.serial_number;
   header.baud = profile.baud;

@@ -15,7 +15,7 @@ namespace axisgate::server {
 
 // Returns the header of a recording that begins now.
 stage::RecordingHeader beginning_now(stage::RecordingHeader header);
-stage::RecordingHeader recording_header(const stage::Profile& profile);
+stage::RecordingHeader recording_header(const stage::Profile& profile, std::string_view kind);
 
 class DeviceRecorder {
  public:

@@ -134,7 +134,7 @@ bool Interleaving::begin() {
   run_for(milliseconds(10));
   const AxisSet axes = question_.moving;
   if (question_.by_execute) {
-    execute({fmt::format("HRT:{}", command_letter(axes))}, [](const ExecuteEvent&) {});
+    execute({fmt::format("HRT:{}", *command_letter(axes))}, [](const ExecuteEvent&) {});
   } else {
     controller_->home({axes, {"mover", "", now_ + seconds(20)}}, now_, [](Result<Motion>) {});
   }

@@ -82,9 +82,10 @@ Result<Controller::Targets> Controller::plan(const MoveRequest& request) const {
     if (move.profile || move.approach) return cannot();
     const auto amount = envelope.pulses(move.axis, move.distance);
     if (!amount) return tl::unexpected(amount.error());
-    const std::int64_t from = request.relative ? state_.axis(move.axis).position_pulses.value_or(0) : 0;
-    if (good = envelope.check_target(move.axis, from + *amount); !good) return tl::unexpected(good.error());
-    if (!targets.emplace(move.axis, from + *amount).second) {
+    const std::optional<std::int64_t> from = request.relative ? state_.axis(move.axis).position_pulses : 0;
+    if (!from) return envelope.position_unknown(move.axis);
+    if (good = envelope.check_target(move.axis, *from + *amount); !good) return tl::unexpected(good.error());
+    if (!targets.emplace(move.axis, *from + *amount).second) {
       return fail(Reason::invalid_request, fmt::format("axis {} is named twice", move.axis));
     }
   }
@@ -135,8 +136,13 @@ void Controller::move(MoveRequest request, TimePoint now, OnStarted started) {
 
 void Controller::home(HomeRequest request, TimePoint now, OnStarted started) {
   at(now, [&] {
-    if (const auto up = check_up(); !up) return started(tl::unexpected(up.error()));
     const AxisSet axes = request.axes.empty() ? state_.controllable() : request.axes;
+    Result<void> good = check_up();
+    const stage::Envelope envelope(profile_, state_, request.context.who, request.context.role);
+    for (const int axis : axes.list()) {
+      if (good) good = envelope.check_axis(axis);
+    }
+    if (!good) return started(tl::unexpected(good.error()));
     begin(MotionKind::home, axes, {}, std::move(request.context), std::move(started));
   });
 }

@@ -1,4 +1,5 @@
-// The gateway with stages of one, two and eight axes: the configuration, leases and stops know how many there are.
+// The gateway with stages of one, two and eight axes: the configuration, and the scope of the whole device, know how
+// many there are.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -60,7 +60,6 @@ TEST_P(Shot, StopsDuringAMove) {
   EXPECT_FALSE(rig.unit.busy(axes));
 }
 
-// The barrier of the family finds out that the unit had received the start, which is not sent again.
 TEST(Shot2, NamesBothAxesByOneLetter) {
   Rig rig(2);
   EXPECT_EQ(rig.outcome(rig.move({{1, 1000}, {2, -20}})), MotionState::succeeded);
@@ -72,7 +71,7 @@ TEST(Shot8, StopsWhatHasStartedIfAStartIsLost) {
   Rig rig(8);
   rig.lose_command = "G:3";
   const MotionId id = rig.move({{2, 50'000}, {3, 50'000}, {4, 50'000}});
-  EXPECT_NE(rig.outcome(id), MotionState::succeeded);
+  EXPECT_EQ(rig.outcome(id), MotionState::failed);
   rig.run(std::chrono::seconds(2));
   EXPECT_EQ(rig.written("G:4"), 0);
   EXPECT_FALSE(rig.unit.busy(2));
@@ -80,6 +79,7 @@ TEST(Shot8, StopsWhatHasStartedIfAStartIsLost) {
   EXPECT_EQ(rig.unit.position(3), 0);
 }
 
+// The barrier of the family finds out that the unit had received the start, which is not sent again.
 TEST(Shot2, AStartWhoseAnswerIsLostIsNotSentAgain) {
   Rig rig(2);
   rig.lose_answer_to = "G:";
@@ -112,6 +112,14 @@ TEST_P(Shot, AStopOutlivesTheLine) {
   EXPECT_TRUE(stopped);
   EXPECT_FALSE(rig.unit.busy(axes));
   EXPECT_LT(rig.unit.position(axes), 100'000);
+}
+
+TEST(Shot2, HomesNoAxisThatItHasNot) {
+  Rig rig(2);
+  rig.controller.home({AxisSet::of(3), {.who = "anna"}}, rig.now, rig.answer());
+  ASSERT_EQ(rig.answers.size(), 1u);
+  EXPECT_EQ(rig.answers[0].error().reason, Reason::unknown_axis);
+  EXPECT_EQ(rig.written("HRT:3"), 0);
 }
 
 TEST(Shot2, RefusesWhatItCannot) {

@@ -147,6 +147,7 @@ TEST_F(ToPositions, RefusedBeforeAnythingIsSent) {
   GoToPositionRequest old = to(true, 1, {});
   old.context.frame_epoch = world.controller().state().frame_epoch + 1;
   EXPECT_EQ(reason_of(go(old)), Reason::epoch_passed);
+  EXPECT_EQ(reason_of(go(to(true, 1, {{1, 0}, {8, 5}}))), Reason::unknown_axis) << "a damaged file of positions";
   EXPECT_EQ(written(world, "PIT:"), 0) << world.replay();
 }
 

@@ -72,9 +72,9 @@ int report(const Session& session, const Response& response) {
   return exit_code;
 }
 
-// Returns 1 to 3; nullopt if the text is a name.
+// Returns 1 to 8; nullopt if the text is a name, or no axis.
 std::optional<int> axis_number(std::string_view text) {
-  if (text.size() != 1 || text[0] < '1' || text[0] > '3') return std::nullopt;
+  if (text.size() != 1 || text[0] < '1' || text[0] > '8') return std::nullopt;
   return text[0] - '0';
 }
 

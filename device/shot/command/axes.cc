@@ -1,12 +1,10 @@
 #include "device/shot/command/axes.h"
 
-#include <cassert>
-
 namespace axisgate::shot {
 
-char command_letter(AxisSet axes) {
-  assert(!axes.empty());
+std::optional<char> command_letter(AxisSet axes) {
   if (axes.count() == 1) return static_cast<char>('0' + axes.lowest());
+  if (axes.empty() || !kLetteredAxes.contains(axes)) return std::nullopt;
   if (axes == kLetteredAxes) return 'D';
   if (!axes.has(3)) return 'A';
   return axes.has(1) ? 'B' : 'C';

@@ -13,9 +13,9 @@ namespace axisgate::shot {
 inline constexpr AxisSet kLetteredAxes = AxisSet::first(3);
 
 // Letters of commands: 1 2 3, A=1+2, B=1+3, C=2+3, D=1+2+3 (manual 3) and every command with an `a`). W means "all
-// controllable axes" and depends on the controller, so the gateway never sends it. command_letter() needs one axis, or
-// several that a letter names.
-char command_letter(AxisSet axes);
+// controllable axes" and depends on the controller, so the gateway never sends it. command_letter() returns nullopt for
+// axes that no letter names.
+std::optional<char> command_letter(AxisSet axes);
 std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable);
 
 // Letters of the status field s in Q: and SRQ: (manual 4), 6)): 1 2 3, C=1+2, D=1+3, E=2+3, W=all. nullopt for K, R and

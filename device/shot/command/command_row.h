@@ -31,7 +31,7 @@ struct Parameter {
   std::string_view unit = {};
 };
 
-// Method that distinguishes this row's answer from a completion, which is a bare 1, 2 or 3.
+// Method that distinguishes this row's answer from a completion, which is the bare number of an axis.
 enum class Separation {
   grammar,   // the answer is never a bare axis number
   all_axes,  // the question is sent for all axes, so that the answer contains commas, and the wanted fields are picked
@@ -126,6 +126,8 @@ struct CommandRow {
   constexpr bool moves() const { return effect == Effect::motion; }
   // Reports whether the row is a prebuffer setting, whose OK_D means that it chains (manual section 2).
   constexpr bool may_chain() const { return reply == "OK|OK_D"; }
+  // Reports whether the reply has position, status and READY of each axis.
+  constexpr bool reads_each_axis() const { return reply == "amount*,hex*,ready*"; }
 };
 
 }  // namespace axisgate::shot

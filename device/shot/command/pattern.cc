@@ -349,7 +349,11 @@ Arguments& Arguments::add(std::string_view letter, std::string value) {
   return *this;
 }
 
-Arguments& Arguments::axes(AxisSet axes) { return add("a", std::string(1, command_letter(axes))); }
+// Axes without a letter make an argument that no row accepts.
+Arguments& Arguments::axes(AxisSet axes) {
+  const auto letter = command_letter(axes);
+  return add("a", letter ? std::string(1, *letter) : to_string(axes));
+}
 
 Arguments& Arguments::pulses(std::int64_t signed_pulses) {
   return add("m", signed_pulses < 0 ? "-" : "+")

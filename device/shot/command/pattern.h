@@ -1,4 +1,4 @@
-// The format language of command_table.h: builds a line from its parameters, and splits a line into them.
+// The format language of command_row.h: builds a line from its parameters, and splits a line into them.
 //
 //   text    literal text                  <a>     parameter of the row, by its letter in the manual
 //   [...]   optional part                 {...|s} repeated for each axis of <a>, separated by `s`

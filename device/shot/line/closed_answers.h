@@ -1,4 +1,4 @@
-// Bare numbers received between a question and the !:S that closes it (command_table.h, Separation::closed).
+// Bare numbers received between a question and the !:S that closes it (command_row.h, Separation::closed).
 #pragma once
 
 #include <algorithm>

@@ -10,12 +10,12 @@ void Completions::connected() {
 }
 
 void Completions::started(AxisSet axes, TimePoint now) {
-  for (const int number : axes.list()) axis(number) = {.possible = true, .started = now};
+  for (const int number : (axes & all()).list()) axis(number) = {.possible = true, .started = now};
 }
 
 void Completions::chained(AxisSet axes, TimePoint now) {
   AxisSet changed;
-  for (const int number : axes.list()) {
+  for (const int number : (axes & all()).list()) {
     if (!axis(number).possible || axis(number).until) changed.add(number);
   }
   if (guarded(Guard::possible_after_chained_setting)) started(changed, now);
@@ -33,7 +33,7 @@ AxisSet Completions::outstanding() const {
 
 AxisSet Completions::ready(AxisSet axes, TimePoint now) {
   AxisSet changed;
-  for (const int number : axes.list()) {
+  for (const int number : (axes & all()).list()) {
     Axis& one = axis(number);
     const bool settled = !guarded(Guard::start_settles) || !one.started || now - *one.started >= kReadyOutdatedMax;
     if (!one.possible || one.until || !settled) continue;
@@ -45,7 +45,7 @@ AxisSet Completions::ready(AxisSet axes, TimePoint now) {
 
 AxisSet Completions::busy(AxisSet axes) {
   AxisSet changed;
-  for (const int number : axes.list()) {
+  for (const int number : (axes & all()).list()) {
     Axis& one = axis(number);
     const bool unasked = !one.possible && guarded(Guard::possible_when_seen_busy);
     if (unasked || one.until) changed.add(number);
@@ -74,7 +74,7 @@ AxisSet Completions::possible() const {
 
 std::optional<TimePoint> Completions::settles_from(AxisSet axes) const {
   std::optional<TimePoint> latest;
-  for (const int number : axes.list()) {
+  for (const int number : (axes & all()).list()) {
     const Axis& one = axis(number);
     if (!one.possible) continue;
     if (!one.until) return {};

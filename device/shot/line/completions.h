@@ -9,6 +9,7 @@
 
 namespace axisgate::shot {
 
+// Axes that the controller does not have are ignored: a recording may name them.
 class Completions {
  public:
   explicit Completions(int axis_count) : axes_(static_cast<std::size_t>(axis_count)) {}

@@ -16,7 +16,7 @@ Line::Line(const Model& model, const Profile& profile, ByteLink& link, Executor&
       executor_(executor),
       listener_(listener),
       backoff_(kReopenBackoffMin),
-      timing_(profile.baud),
+      timing_(profile.baud, model.axis_count()),
       flood_(profile.baud),
       completions_(model.axis_count()),
       recovery_(model, profile, *this, listener_, link_state_, timing_, controllable_, completions_, continuity_,

@@ -12,14 +12,15 @@ namespace axisgate::shot {
 
 class LineTiming {
  public:
-  static constexpr std::size_t kReplyBytesMax = 64;  // longest reply during a path: Q:SPC with three long coordinates
-  static constexpr std::size_t kTerminator = 2;      // CR LF
-  static constexpr std::size_t kKept = 32;           // number of newest exchanges that the turnaround is measured from
+  static constexpr std::size_t kTerminator = 2;  // CR LF
+  static constexpr std::size_t kKept = 32;       // number of newest exchanges that the turnaround is measured from
 
-  explicit LineTiming(int baud) : baud_(baud) {}
+  LineTiming(int baud, int axis_count) : baud_(baud), axis_count_(axis_count) {}
 
   int baud() const { return baud_; }
   Duration time_of(std::size_t bytes) const;  // ten bits a byte
+  // Returns the length of the longest reply during a path: Q:SPC with long coordinates.
+  std::size_t reply_bytes_max() const;
 
   void connected() { turnarounds_.clear(); }
   // Called when a line was answered after `latency` by `reply_bytes`, not counting terminators.
@@ -33,7 +34,7 @@ class LineTiming {
   Duration longest_exchange(const Command& command) const;
 
  private:
-  int baud_;
+  int baud_, axis_count_;
   std::deque<Duration> turnarounds_;  // oldest first
 };
 

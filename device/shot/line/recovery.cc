@@ -142,7 +142,7 @@ bool Recovery::write_open_stops(std::string_view heard, TimePoint now) {
 }
 
 Barrier::Limits Recovery::limits() const {
-  const Duration longest_reply = timing_.time_of(LineTiming::kReplyBytesMax);
+  const Duration longest_reply = timing_.time_of(timing_.reply_bytes_max());
   return {profile_.reply_limit + longest_reply, std::max(kBarrierSilenceMin, 3 * longest_reply)};
 }
 

@@ -37,7 +37,7 @@ void Results::report(const InFlight& ended, const ExchangeResult& result, Outcom
 // Returns the axes that a reading shows as busy. The requester processes the reading only after the next line was sent.
 AxisSet Results::busy_in(const ExchangeRequest& request, const Reply& reply) const {
   AxisSet busy;
-  const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
+  const bool positions = request.command.row->reads_each_axis() && reply.kind == Reply::Kind::data;
   const auto readings = positions ? parse_positions(model_, reply, controllable_) : std::nullopt;
   for (std::size_t axis = 0; readings && axis < readings->size(); ++axis) {
     if ((*readings)[axis].valid && (*readings)[axis].busy) busy.add(static_cast<int>(axis) + 1);

@@ -121,7 +121,7 @@ void Sending::send(WaitingPtr waiting, TimePoint now) {
   const ExchangeRequest& request = waiting->request;
   const Duration own_limit = request.command.row->reply_limit;
   const Duration limit = own_limit > Duration::zero() ? own_limit : profile_.reply_limit;
-  const Duration on_the_wire = timing_.time_of(request.command.line.size() + 2 + LineTiming::kReplyBytesMax);
+  const Duration on_the_wire = timing_.time_of(request.command.line.size() + 2 + timing_.reply_bytes_max());
   // Only a stop is sent after half a line, which must not become the start of the stop's reply.
   if (incoming_.mid_line() && guarded(Guard::half_lines_before_stops)) incoming_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);

@@ -14,7 +14,7 @@ void Wire::write(std::string_view line, std::uint64_t exchange, const ExchangeRe
   bytes += "\r\n";
   // Saving to memory may take long, which is no sign of a restart.
   const Duration saving = cause ? cause->command.row->reply_limit : Duration::zero();
-  continuity_.wrote(line, timing_.time_of(bytes.size() + LineTiming::kReplyBytesMax) + saving, now);
+  continuity_.wrote(line, timing_.time_of(bytes.size() + timing_.reply_bytes_max()) + saving, now);
   BytesWritten written;
   written.bytes = bytes;
   written.exchange = exchange;

@@ -51,7 +51,10 @@ Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& 
 // Checks the coordinates, but not the speeds: axes that would be too fast are slowed down.
 Result<Positions> within(const Envelope& envelope, const State& state, const Coordinates& coordinates) {
   Positions place{};
-  for (const auto& [axis, pulses] : coordinates) place[static_cast<std::size_t>(axis - 1)] = pulses;
+  for (const auto& [axis, pulses] : coordinates) {
+    if (const auto good = envelope.check_axis(axis); !good) return tl::unexpected(good.error());
+    place[static_cast<std::size_t>(axis - 1)] = pulses;
+  }
   TransactionPrediction prediction(envelope, positions_of(state), {}, state.controllable());
   if (const auto good = prediction.go_to(place); !good) return tl::unexpected(good.error());
   return place;

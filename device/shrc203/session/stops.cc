@@ -14,7 +14,7 @@ namespace axisgate::shrc203 {
 void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done) {
   const AxisSet known = store_.controllable().empty() ? kAllAxes : store_.controllable();
   const AxisSet possible = axes & known;
-  const AxisSet named = axes.empty() ? known : possible.empty() ? axes : possible;
+  const AxisSet named = axes.empty() ? known : possible.empty() ? axes & kAllAxes : possible;
   const bool emergency = kind == StopKind::emergency;
   const bool moved = motions_.anything_moves() || !motions_.live().empty() || store_.state().moving_unknown;
   store_.emit(StopRequested{named, emergency, context.who, moved});

@@ -167,7 +167,7 @@ Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
   const bool shared = setter.row->reg == Register::kp;
   if (shared && reply.text == "NS") return Held::nothing;
   const AxisSet axes = setter.axes(controllable);
-  if (shared && reply.fields[0] != std::string(1, command_letter(axes))) return Held::other;
+  if (shared && reply.fields[0] != setter.arguments.first("a")) return Held::other;
   std::size_t place = 1;
   for (const int axis : axes.list()) {
     const auto amount = shared ? (place < reply.fields.size() ? parse_integer(reply.fields[place++]) : std::nullopt)

@@ -115,12 +115,21 @@ void add_axis(const AxisChange& axis_change, const stage::State& state, Change& 
   if (axis_change.origin_speeds) add_origin_speeds(*axis, *axis_change.origin_speeds, present, change);
 }
 
-void add_controller(const SettingsChange& wanted, Change& change) {
+void add_trigger(const stage::Trigger& trigger, const stage::State& state, Change& change) {
+  if (trigger.axis != 0) {
+    const auto axis = checked_axis(trigger.axis);
+    const auto good = axis.and_then([&](int number) { return controllable_axes(AxisSet::of(number), state); });
+    if (!good) return change.refuse(good.error());
+  }
+  change.add(stage::SetTrigger{trigger});
+}
+
+void add_controller(const SettingsChange& wanted, const stage::State& state, Change& change) {
   if (wanted.display_lit) change.add(stage::SetDisplay{*wanted.display_lit});
   if (wanted.beep) change.add(stage::SetBeep{*wanted.beep});
   if (wanted.settling) change.add(stage::SetSettling{*wanted.settling});
   if (wanted.outputs) change.add(stage::SetOutputs{*wanted.outputs});
-  if (wanted.trigger) change.add(stage::SetTrigger{*wanted.trigger});
+  if (wanted.trigger) add_trigger(*wanted.trigger, state, change);
   if (wanted.sleeping) change.add(stage::SetSleep{*wanted.sleeping});
   if (wanted.mode) change.add(stage::SetMode{*wanted.mode});
   if (wanted.format) change.add(stage::SetFormat{*wanted.format});
@@ -174,7 +183,7 @@ Result<Lines> lines_of(const SettingsChange& wanted, const stage::Kind& kind, co
     }
     if (number) axes.add(*number);
   }
-  add_controller(wanted, change);
+  add_controller(wanted, state, change);
   return change.lines();
 }
 

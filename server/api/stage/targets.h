@@ -33,7 +33,7 @@ struct Move {
 
 // Checks for 1 to kAxesMax. Fails with unknown_axis.
 Result<int> checked_axis(int number);
-// Fails with unknown_axis if `device`, a stage, has less axes than named.
+// Fails with unknown_axis if `device`, a stage, has fewer axes than named.
 Result<void> check_axes(stage::AxisSet named, const server::Device& device);
 // Checks each axis like checked_axis(). Fails with invalid_request if an axis is named twice. No axes stay no axes.
 Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers);

@@ -49,7 +49,7 @@ class RecordingFileTest : public ::testing::Test {
   link_test::TemporaryDirectory directory_;
   const std::filesystem::path path_ = directory_ / "stage.recording";
   Metrics metrics_;
-  DeviceRecorder recorder_{recording_header({}), [](const std::function<void()>& task) { task(); },
+  DeviceRecorder recorder_{recording_header({}, "shrc203"), [](const std::function<void()>& task) { task(); },
                            metrics_.recorder_drops("stage")};
 };
 
@@ -77,7 +77,8 @@ TEST_F(RecordingFileTest, IsTriedAgainUntilItCanBeWritten) {
 
 TEST_F(RecordingFileTest, TwoFilesHaveNoMoreThanTheirBytes) {
   DeviceRecorder recorder(
-      recording_header({}), [](const std::function<void()>& task) { task(); }, metrics_.recorder_drops("stage"), 4096);
+      recording_header({}, "shrc203"), [](const std::function<void()>& task) { task(); },
+      metrics_.recorder_drops("stage"), 4096);
   constexpr std::uint64_t kSmall = 64 << 10;
   {
     const RecordingFile file(path_, recorder, kSmall, kRetryPause);

@@ -29,7 +29,8 @@ class ServerRecorderTest : public ::testing::Test {
   std::string page() const { return prometheus::TextSerializer().Serialize(metrics_.registry()->Collect()); }
 
   Metrics metrics_;
-  DeviceRecorder recorder_{recording_header({}), [](std::function<void()>) {}, metrics_.recorder_drops("stage"), 2000};
+  DeviceRecorder recorder_{recording_header({}, "shrc203"), [](std::function<void()>) {},
+                           metrics_.recorder_drops("stage"), 2000};
   std::uint64_t exchange_ = 0;
 };
 

@@ -65,6 +65,15 @@ TEST(CommandLetter, IsTheOneOfTheManual) {
   EXPECT_EQ(command_letter(k123), 'D');
 }
 
+// The controllers of the family have letters for sets of three axes at most.
+TEST(CommandLetter, IsNoneForOtherSets) {
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    const AxisSet axes = AxisSet::in(use::Scope::of_axes(bits));
+    const bool named = axes.count() == 1 || (bits != 0 && bits < 8);
+    EXPECT_EQ(command_letter(axes).has_value(), named) << to_string(axes);
+  }
+}
+
 TEST(CommandLetter, IsReadBack) {
   EXPECT_EQ(from_command_letter('1', k123), k1);
   EXPECT_EQ(from_command_letter('2', k123), k2);

@@ -118,5 +118,17 @@ TEST(Completions, ANewStartBeginsAnew) {
   EXPECT_EQ(completions.outstanding(), kFirst);
 }
 
+// A recording of another controller, or a damaged one, may name any axis of a stage.
+TEST(Completions, AxesThatThereAreNotAreIgnored) {
+  Completions completions{3};
+  const AxisSet beyond = AxisSet::of(8) | AxisSet::of(4);
+  completions.started(beyond, TimePoint{});
+  completions.chained(beyond, TimePoint{});
+  EXPECT_EQ(completions.busy(beyond), AxisSet());
+  EXPECT_EQ(completions.ready(beyond, TimePoint{}), AxisSet());
+  EXPECT_EQ(completions.possible(), AxisSet());
+  EXPECT_FALSE(completions.settles_from(beyond));
+}
+
 }  // namespace
 }  // namespace axisgate::shot::completions_test

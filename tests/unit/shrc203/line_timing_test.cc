@@ -18,12 +18,14 @@ class PaceTest : public testing::Test {
   // Records an exchange of 5 bytes sent and 4 received, terminators included.
   void answered_in(Duration turnaround) { timing.answered(3, 2, milliseconds(9) + turnaround); }
 
-  LineTiming timing{10'000};
+  LineTiming timing{10'000, 3};
 };
 
 TEST_F(PaceTest, TenBitsAByte) {
   EXPECT_EQ(timing.time_of(48), milliseconds(48));
-  EXPECT_EQ(LineTiming(38400).time_of(384), milliseconds(100));
+  EXPECT_EQ(LineTiming(38400, 3).time_of(384), milliseconds(100));
+  EXPECT_EQ(LineTiming(38400, 3).reply_bytes_max(), 64u);
+  EXPECT_EQ(LineTiming(38400, 8).reply_bytes_max(), 169u);
 }
 
 TEST_F(PaceTest, TheTurnaroundIsWhatTheBytesDoNotExplain) {

@@ -27,7 +27,7 @@ class FeedingTest : public testing::Test {
     return plan;
   }
 
-  LineTiming timing{10'000};
+  LineTiming timing{10'000, 3};
 };
 
 // "1", "MP:1+P100" and OK_D with CR LF each: 3 + 11 + 6 ms, and 5 ms for the host.
@@ -37,7 +37,7 @@ TEST_F(FeedingTest, TheTimeIsThatOfTheLinesThatMustPass) {
   const PathPlan plan = path({kShortest, kShortest});
   EXPECT_EQ(segment_setter(plan, 2).line, "MP:1+P100");
   EXPECT_EQ(shortest_feasible(plan, 1, timing), kShortest);
-  timing = LineTiming(10'000);
+  timing = LineTiming(10'000, 3);
   for (const int time : {3, 3, 90}) timing.answered(0, 0, milliseconds(4 + time));
   EXPECT_EQ(shortest_feasible(plan, 1, timing), kShortest + milliseconds(3)) << "one slow answer is not what is usual";
 }
