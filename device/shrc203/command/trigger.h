@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "device/shot/command/command.h"
+#include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {
 

@@ -12,6 +12,7 @@
 
 #include "device/core/time.h"
 #include "device/shot/line/line.h"
+#include "device/shrc203/stage.h"
 
 namespace axisgate::shrc203 {
 

@@ -14,6 +14,7 @@
 #include "server/api/mill/mills.h"
 #include "server/api/request/ending.h"
 #include "server/api/request/names.h"
+#include "server/api/stage/targets.h"
 #include "server/log.h"
 
 namespace axisgate::api {
