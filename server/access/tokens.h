@@ -37,7 +37,7 @@ class Tokens {
   static Result<std::unique_ptr<Tokens>> open(std::string path);
 
   // Checks that such a token could be created. Fails with invalid_request if the name is not a letter followed by
-  // letters, digits, '-' or '_', or if a valid token has it; with out_of_range for a life below 1 s or beyond
+  // letters, digits, '-' or '_', or if a valid token has it; with out_of_range for a validity below 1 s or beyond
   // kTokenLifeMax; and with queue_full.
   Result<void> check_new(const std::string& name, Calendar expires, Calendar now) const;
 

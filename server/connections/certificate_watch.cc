@@ -12,8 +12,6 @@
 #include "server/log.h"
 
 namespace axisgate::server {
-namespace {}  // namespace
-
 CertificateNotice notice_of(const std::string& path, const Result<WallTime>& until, WallTime now) {
   if (!until) return {explain(until.error()), kCertificateLook};
   const auto left = *until - now;

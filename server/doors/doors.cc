@@ -8,8 +8,6 @@
 #include "server/limits.h"
 
 namespace axisgate::server {
-namespace {}  // namespace
-
 Result<std::unique_ptr<Doors>> Doors::open(Gateway& gateway, Access& access, SavedPositions& positions,
                                            const ConnectionLimits& limits) {
   const Config& config = gateway.config();

@@ -6,8 +6,6 @@
 #include "server/limits.h"
 
 namespace axisgate::front {
-namespace {}  // namespace
-
 Spending::Spending(const FrontLimits& limits, Sources& sources, const std::string& source, TimePoint now)
     : sources_(sources),
       source_(sources.of(source, now)),

@@ -1,4 +1,4 @@
-// Axes that a stage may have, and that an SHRC-203 has not: every request that names one is refused before anything is
+// Axes that a stage may have, but an SHRC-203 does not: every request that names one is refused before anything is
 // planned or written.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

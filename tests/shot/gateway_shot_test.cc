@@ -38,6 +38,7 @@ TEST_P(GatewayWithShot, HasItsAxes) {
   EXPECT_EQ(stage.whole(), use::Scope(stage::AxisSet::first(GetParam())));
   const TimePoint limit = monotonic_now() + std::chrono::seconds(10);
   const auto link = [&] { return stage.newest_state().get().value->link; };
+  // Another thread publishes the state, in real time; the test looks until it has, or fails after ten seconds.
   while (link() != stage::LinkState::up && monotonic_now() < limit) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -114,7 +114,7 @@ TEST_P(Shot, AStopOutlivesTheLine) {
   EXPECT_LT(rig.unit.position(axes), 100'000);
 }
 
-TEST(Shot2, HomesNoAxisThatItHasNot) {
+TEST(Shot2, HomesNoAxisThatItDoesNotHave) {
   Rig rig(2);
   rig.controller.home({AxisSet::of(3), {.who = "anna"}}, rig.now, rig.answer());
   ASSERT_EQ(rig.answers.size(), 1u);

@@ -9,6 +9,7 @@
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
+#include "device/stage/axes.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -72,9 +73,9 @@ int report(const Session& session, const Response& response) {
   return exit_code;
 }
 
-// Returns 1 to 8; nullopt if the text is a name, or no axis.
+// Returns the number of an axis that a stage may have; nullopt for any other text, such as a name.
 std::optional<int> axis_number(std::string_view text) {
-  if (text.size() != 1 || text[0] < '1' || text[0] > '8') return std::nullopt;
+  if (text.size() != 1 || text[0] < '1' || text[0] > '0' + stage::kAxesMax) return std::nullopt;
   return text[0] - '0';
 }
 

@@ -34,6 +34,8 @@ class Model {
  public:
   // `commands` must have a row for each LineQuestion, and names that are valid as long as the program runs.
   Model(std::string_view name, int axis_count, std::vector<CommandRow> commands, std::vector<Notice> notices);
+  Model(const Model&) = delete;  // commands refer to its rows
+  Model& operator=(const Model&) = delete;
 
   std::string_view name() const { return name_; }  // model that *IDN? reports
   AxisSet axes() const { return AxisSet::first(axis_count_); }

@@ -119,7 +119,7 @@ TEST(Completions, ANewStartBeginsAnew) {
 }
 
 // A recording of another controller, or a damaged one, may name any axis of a stage.
-TEST(Completions, AxesThatThereAreNotAreIgnored) {
+TEST(Completions, AxesThatTheControllerDoesNotHaveAreIgnored) {
   Completions completions{3};
   const AxisSet beyond = AxisSet::of(8) | AxisSet::of(4);
   completions.started(beyond, TimePoint{});

@@ -10,7 +10,7 @@ using testing::Field;
 
 Stop stop_of(StopId id, AxisSet axes) { return {.id = id, .axes = axes}; }
 
-TEST(Within, LeavesOutTheAxesThatThereAreNot) {
+TEST(Within, LeavesOutAxesThatTheDeviceDoesNotHave) {
   Inheritance left;
   left.unfinished = Unfinished{.serial_number = "1",
                                .moving = AxisSet::of(2) | AxisSet::of(4),
