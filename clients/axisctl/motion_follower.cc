@@ -77,7 +77,7 @@ void MotionFollower::show_events(const std::string& motion, std::promise<void> a
 
 void MotionFollower::show_positions() {
   v1::WatchDeviceRequest request;
-  request.set_name(device_);
+  request.set_device(device_);
   *request.mutable_min_interval() =
       google::protobuf::util::TimeUtil::MillisecondsToDuration(display_.interval().count());
   const auto reader = session_.connection.devices->WatchDevice(&positions_context_, request);

@@ -35,7 +35,7 @@ Failure failure_of_motion(const v1::Device& device, const v1::Motion& motion) {
 // have a separate quota.
 v1::Motion poll_outcome(const Session& session, const std::string& motion) {
   v1::GetMotionRequest request;
-  request.set_name(motion);
+  request.set_motion(motion);
   while (true) {
     const v1::Motion now =
         session.connection.call(session.connection.stage, &v1::StageService::Stub::GetMotion, request, kQuestionLimit)
@@ -72,7 +72,7 @@ std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
 v1::Motion await_outcome(const Session& session, const std::string& motion) {
   grpc::ClientContext context;
   v1::WatchMotionRequest request;
-  request.set_name(motion);
+  request.set_motion(motion);
   const auto reader = session.connection.stage->WatchMotion(&context, request);
   v1::WatchMotionResponse response;
   while (reader->Read(&response)) {

@@ -1,6 +1,7 @@
 #include "clients/axisctl/parse.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
@@ -121,6 +122,32 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
   jog.set_axis(find_axis(device, text.substr(0, equals)).number());
   jog.set_direction(sign == "+" ? v1::AxisJog::DIRECTION_PLUS : v1::AxisJog::DIRECTION_MINUS);
   return jog;
+}
+
+v1::Pins to_pins(int bits) {
+  v1::Pins pins;
+  for (int pin = 1; bits >> (pin - 1) != 0; ++pin) {
+    if ((bits >> (pin - 1) & 1) != 0) pins.add_on(pin);
+  }
+  return pins;
+}
+
+google::protobuf::Duration from_milliseconds(std::int64_t count) {
+  return google::protobuf::util::TimeUtil::MillisecondsToDuration(count);
+}
+
+v1::Mode parse_mode(const std::string& text) {
+  v1::Mode mode = v1::MODE_UNSPECIFIED;
+  if (!v1::Mode_Parse("MODE_" + text, &mode)) throw usage(fmt::format("there is no mode \"{}\"", text), "");
+  return mode;
+}
+
+v1::CommandFormat parse_format(const std::string& text) {
+  v1::CommandFormat format = v1::COMMAND_FORMAT_UNSPECIFIED;
+  if (!v1::CommandFormat_Parse("COMMAND_FORMAT_" + text, &format)) {
+    throw usage(fmt::format("there is no command format \"{}\"", text), "");
+  }
+  return format;
 }
 
 std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std::int64_t most) {

@@ -36,6 +36,14 @@ v1::AxisDistance parse_place(const v1::Device& device, std::string_view text);
 // Parses a direction, "1=+" or "1=-". The result has no speed.
 v1::AxisJog parse_direction(const v1::Device& device, std::string_view text);
 
+// Return the inputs or outputs whose bits are set (pin 1 is 1, pin 2 is 2, pin 3 is 4), and a time.
+v1::Pins to_pins(int bits);
+google::protobuf::Duration from_milliseconds(std::int64_t count);
+
+// Parse a mode and a command format as the controller writes them: "HOST", "SHOT_FC".
+v1::Mode parse_mode(const std::string& text);
+v1::CommandFormat parse_format(const std::string& text);
+
 // Parses a decimal number as a count of steps: "0.2" with one decimal is 2 steps of 0.1. nullopt if the text is not a
 // whole number of steps from 0 to `most`.
 std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std::int64_t most);

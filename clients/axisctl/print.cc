@@ -57,10 +57,12 @@ std::string describe_link(const v1::LinkChange& link) {
 
 std::string describe_stop(const v1::StopRequested& stop) {
   if (stop.axes().empty()) {
-    return fmt::format("abort requested by {}", stop.who().empty() ? "an unknown caller" : stop.who());
+    return fmt::format("abort requested by {}",
+                       stop.caller().name().empty() ? "an unknown caller" : stop.caller().name());
   }
   return fmt::format("{} of axes {} requested by {}{}", stop.emergency() ? "emergency stop" : "stop",
-                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who(),
+                     fmt::join(stop.axes(), ", "),
+                     stop.caller().name().empty() ? "an unknown caller" : stop.caller().name(),
                      stop.count() > 1 ? fmt::format(", {} times while nothing moved", stop.count()) : "");
 }
 
@@ -69,14 +71,13 @@ std::string axes_text(const google::protobuf::RepeatedField<std::int32_t>& axes)
 }
 
 std::string describe_stop_change(const v1::StopChange& stop) {
-  const std::string title =
-      fmt::format("{} {} of {} by {}", stop.emergency() ? "emergency stop" : "stop", last_part(stop.name()),
-                  axes_text(stop.axes()), fmt::join(stop.callers(), ", "));
+  const std::string title = fmt::format("{} {} of {} by {}", stop.emergency() ? "emergency stop" : "stop",
+                                        last_part(stop.name()), axes_text(stop.axes()), names_text(stop.callers()));
   switch (stop.state()) {
     case v1::StopChange::STATE_OPEN:
       return title + " stays open: nobody has seen the axes obey it, and it is repeated";
     case v1::StopChange::STATE_CONFIRMED: {
-      std::string text = fmt::format("{} confirmed after {}", title, duration_text(stop.after()));
+      std::string text = fmt::format("{} confirmed after {}", title, duration_text(stop.elapsed_time()));
       for (const v1::AxisRest& rest : stop.rests()) {
         text += fmt::format(", axis {} at {} pulses", rest.axis(), rest.position_pulses());
       }
@@ -85,16 +86,16 @@ std::string describe_stop_change(const v1::StopChange& stop) {
     case v1::StopChange::STATE_REPLACED:
       return fmt::format("{} replaced by stop {}", title, last_part(stop.replaced_by()));
     case v1::StopChange::STATE_WITHDRAWN:
-      return fmt::format("{} withdrawn by {}; nobody has seen the axes obey it", title, stop.withdrawn_by());
+      return fmt::format("{} withdrawn by {}; nobody has seen the axes obey it", title, stop.withdrawn_by().name());
     default:
       return title;
   }
 }
 
 std::string describe_latch(const v1::EmergencyLatchChange& change) {
-  return change.latched()
-             ? fmt::format("latched by the emergency stop of {}: nothing moves until `axisctl clear`", change.who())
-             : fmt::format("the emergency stop was cleared by {}", change.who());
+  return change.latched() ? fmt::format("latched by the emergency stop of {}: nothing moves until `axisctl clear`",
+                                        change.caller().name())
+                          : fmt::format("the emergency stop was cleared by {}", change.caller().name());
 }
 
 std::string describe_foreign(const v1::ForeignMotion& motion) {
@@ -115,7 +116,8 @@ std::string describe_switches(const v1::SwitchesChanged& change) {
     parts.push_back(fmt::format("{},{} from {} to {}", one.item(), one.number(), one.before(), one.after()));
   }
   if (change.unknown()) parts.emplace_back("other changes are unknown");
-  return fmt::format("memory switches changed by {}: {}", change.who().empty() ? "an unknown caller" : change.who(),
+  return fmt::format("memory switches changed by {}: {}",
+                     change.caller().name().empty() ? "an unknown caller" : change.caller().name(),
                      fmt::join(parts, "; "));
 }
 
@@ -221,13 +223,35 @@ std::string speed_text(const v1::Speed& speed) {
   return "?";
 }
 
-std::string pins_text(int bits, std::string_view name) {
-  constexpr int pins = 6;  // manual 95), 96)
+std::string pins_text(const v1::Pins& pins, std::string_view name) {
   std::string on;
-  for (int pin = 1; pin <= pins; ++pin) {
-    if (((bits >> (pin - 1)) & 1) != 0) on += fmt::format("{}{}{}", on.empty() ? "" : " ", name, pin);
-  }
+  for (const int pin : pins.on()) on += fmt::format("{}{}{}", on.empty() ? "" : " ", name, pin);
   return on.empty() ? "none" : on;
+}
+
+std::string names_text(const google::protobuf::RepeatedPtrField<v1::Caller>& callers) {
+  std::string names;
+  for (const v1::Caller& caller : callers) names += (names.empty() ? "" : ", ") + caller.name();
+  return names;
+}
+
+std::string mode_text(v1::Mode mode) {
+  if (mode == v1::MODE_UNSPECIFIED) return "";
+  std::string text = v1::Mode_Name(mode);
+  if (text.empty()) return std::to_string(mode);
+  text.erase(0, std::string_view("MODE_").size());
+  std::ranges::replace(text, '_', ',');
+  return text;
+}
+
+std::string format_text(v1::CommandFormat format) {
+  if (format == v1::COMMAND_FORMAT_UNSPECIFIED) return "";
+  const std::string text = v1::CommandFormat_Name(format);
+  return text.empty() ? std::to_string(format) : text.substr(std::string_view("COMMAND_FORMAT_").size());
+}
+
+std::int64_t milliseconds(const google::protobuf::Duration& duration) {
+  return google::protobuf::util::TimeUtil::DurationToMilliseconds(duration);
 }
 
 std::string trigger_text(const v1::Trigger& trigger) {

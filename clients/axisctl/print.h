@@ -50,7 +50,17 @@ std::string place_text(const v1::Axis& axis, std::int64_t pulses);
 std::string speed_text(const v1::Speed& speed);
 
 // Returns "OUT1 OUT3" for 5 and "OUT", as the controller numbers its six outputs and inputs; "none" for 0.
-std::string pins_text(int bits, std::string_view name);
+std::string pins_text(const v1::Pins& pins, std::string_view name);
+
+// Returns "unix anna, unix bert".
+std::string names_text(const google::protobuf::RepeatedPtrField<v1::Caller>& callers);
+
+// Return mode and command format as the controller writes them, a number that this version does not know as this
+// number, and an empty text for the unspecified value.
+std::string mode_text(v1::Mode mode);
+std::string format_text(v1::CommandFormat format);
+
+std::int64_t milliseconds(const google::protobuf::Duration& duration);
 
 // Returns "every 500 drive pulses of axis 2".
 std::string trigger_text(const v1::Trigger& trigger);

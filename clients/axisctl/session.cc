@@ -46,7 +46,7 @@ v1::Device listed_or_refused(const Session& session, const v1::ListDevicesRespon
   if (found != there.devices().end()) return *found;
   const Connection& connection = session.connection;
   v1::GetDeviceRequest request;
-  request.set_name(name);
+  request.set_device(name);
   return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
 }
 

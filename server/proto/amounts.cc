@@ -1,5 +1,7 @@
 #include "server/proto/amounts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -110,6 +112,65 @@ v1::Unit to_proto(Unit unit) {
 
 Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
   return api::checked_axes({numbers.begin(), numbers.end()});
+}
+
+Result<int> to_bits(const v1::Pins& pins) {
+  constexpr int kPinsMax = 30;
+  int bits = 0;
+  for (const int pin : pins.on()) {
+    if (pin < 1 || pin > kPinsMax) {
+      return fail(Reason::out_of_range, fmt::format("there is no pin {}", pin), "pins are numbered from 1");
+    }
+    bits |= 1 << (pin - 1);
+  }
+  return bits;
+}
+
+v1::Pins to_pins(int bits) {
+  v1::Pins pins;
+  for (int pin = 1; bits >> (pin - 1) != 0; ++pin) {
+    if ((bits >> (pin - 1) & 1) != 0) pins.add_on(pin);
+  }
+  return pins;
+}
+
+v1::Mode to_mode(std::string_view text) {
+  std::string name = "MODE_" + std::string(text);
+  std::ranges::replace(name, ',', '_');
+  v1::Mode mode = v1::MODE_UNSPECIFIED;
+  v1::Mode_Parse(name, &mode);
+  return mode;
+}
+
+std::string to_text(v1::Mode mode) {
+  std::string text = v1::Mode_Name(mode);
+  if (text.empty()) return text;
+  text.erase(0, std::string_view("MODE_").size());
+  std::ranges::replace(text, '_', ',');
+  return text;
+}
+
+v1::CommandFormat to_format(std::string_view text) {
+  v1::CommandFormat format = v1::COMMAND_FORMAT_UNSPECIFIED;
+  v1::CommandFormat_Parse("COMMAND_FORMAT_" + std::string(text), &format);
+  return format;
+}
+
+std::string to_text(v1::CommandFormat format) {
+  std::string text = v1::CommandFormat_Name(format);
+  return text.empty() ? text : text.substr(std::string_view("COMMAND_FORMAT_").size());
+}
+
+Result<int> to_milliseconds(const google::protobuf::Duration& duration) {
+  const Duration exact = to_duration(duration);
+  if (exact < Duration::zero() || exact > std::chrono::hours(1)) {
+    return fail(Reason::out_of_range, "a time is negative or longer than an hour");
+  }
+  const auto whole = std::chrono::floor<std::chrono::milliseconds>(exact);
+  if (whole != exact) {
+    return fail(Reason::not_representable, fmt::format("a time of {} ns is not a whole number of ms", exact.count()));
+  }
+  return static_cast<int>(whole.count());
 }
 
 Duration to_span(const google::protobuf::Duration& duration) {

@@ -4,6 +4,9 @@
 #include <google/protobuf/duration.pb.h>
 #include <google/protobuf/repeated_field.h>
 
+#include <string>
+#include <string_view>
+
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
 #include "device/core/quantity.h"
@@ -20,12 +23,26 @@ v1::Distance to_distance(const Quantity& quantity);
 v1::Speed to_speed(const Quantity& quantity);
 v1::Unit to_proto(Unit unit);
 
+// Inputs or outputs as bits: pin 1 is 1, pin 2 is 2, pin 3 is 4. Fails with out_of_range for a pin below 1 or above 30.
+Result<int> to_bits(const v1::Pins& pins);
+v1::Pins to_pins(int bits);
+
+// Mode and format of commands as the controller writes them. Return UNSPECIFIED for a word that the API does not know,
+// and an empty text for a number that it does not know.
+v1::Mode to_mode(std::string_view text);
+std::string to_text(v1::Mode mode);
+v1::CommandFormat to_format(std::string_view text);
+std::string to_text(v1::CommandFormat format);
+
 // Fails like api::checked_axes().
 Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
 
 // Negative if `duration` is negative or invalid; at most 200 years.
 Duration to_duration(const google::protobuf::Duration& duration);
 google::protobuf::Duration to_proto(Duration duration);
+
+// Fails with not_representable for a part of a millisecond, and with out_of_range above an hour or below 0.
+Result<int> to_milliseconds(const google::protobuf::Duration& duration);
 
 // Limits the duration to 0 to 24 hours. A negative or invalid duration becomes 0.
 Duration to_span(const google::protobuf::Duration& duration);

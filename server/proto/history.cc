@@ -12,6 +12,7 @@
 
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
+#include "server/proto/callers.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
@@ -63,7 +64,7 @@ v1::MotionState motion_state(const std::string& name) {
 
 v1::PersonSummary message_of(const server::journal::PersonSummary& person) {
   v1::PersonSummary proto;
-  proto.set_who(person.who);
+  if (!person.who.empty()) *proto.mutable_caller() = to_caller(person.who);
   *proto.mutable_first_time() = to_proto(person.first);
   *proto.mutable_last_time() = to_proto(person.last);
   for (const auto& motions : person.motions) {
@@ -79,10 +80,10 @@ v1::PersonSummary message_of(const server::journal::PersonSummary& person) {
 v1::LateStop message_of(const server::journal::LateStop& stop) {
   v1::LateStop proto;
   *proto.mutable_time() = to_proto(stop.time);
-  proto.set_who(stop.who);
+  if (!stop.who.empty()) *proto.mutable_caller() = to_caller(stop.who);
   proto.set_device(api::device_name(stop.device));
   proto.set_emergency(stop.emergency);
-  *proto.mutable_after() = to_proto(stop.after);
+  *proto.mutable_elapsed_time() = to_proto(stop.after);
   proto.set_confirmed(stop.confirmed);
   return proto;
 }
@@ -90,7 +91,7 @@ v1::LateStop message_of(const server::journal::LateStop& stop) {
 v1::StopSummary message_of(const server::journal::StopSummary& stop) {
   v1::StopSummary proto;
   *proto.mutable_time() = to_proto(stop.time);
-  proto.set_who(stop.who);
+  if (!stop.who.empty()) *proto.mutable_caller() = to_caller(stop.who);
   proto.set_device(api::device_name(stop.device));
   proto.set_emergency(stop.emergency);
   return proto;
@@ -157,7 +158,7 @@ v1::HistoryEntry to_proto(const StoredEntry& stored) {
   *proto.mutable_time() = to_proto(entry.time);
   proto.set_kind(static_cast<v1::HistoryKind>(entry.kind));
   if (!entry.device.empty()) proto.set_device(api::device_name(entry.device));
-  proto.set_who(entry.who);
+  if (!entry.who.empty()) *proto.mutable_caller() = to_caller(entry.who);
   if (entry.motion != 0) proto.set_motion(api::motion_name(entry.device, entry.motion));
   proto.set_details(entry.body);
   return proto;
@@ -222,7 +223,7 @@ Result<Filter> to_filter(const server::Gateway& gateway, const v1::ListHistoryRe
     filter.device = motion->device->name();
     filter.motion = motion->id;
   }
-  filter.who = request.who();
+  filter.who = request.caller();
   for (const int kind : request.kinds()) filter.kinds.push_back(static_cast<EntryKind>(kind));
   const auto outcome = to_outcome(request.outcome());
   if (!outcome) return tl::unexpected(outcome.error());

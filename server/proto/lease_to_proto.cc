@@ -4,6 +4,7 @@
 
 #include "server/events/wall_time.h"
 #include "server/proto/amounts.h"
+#include "server/proto/callers.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
@@ -51,7 +52,7 @@ v1::Lease to_proto(const server::Lease& lease) {
   v1::Lease proto;
   proto.set_token(lease.sealed_token);
   set_scope(lease.terms.scope, proto);
-  proto.set_holder(lease.holder);
+  *proto.mutable_holder() = to_caller(lease.holder);
   *proto.mutable_since_time() = to_stamp(lease.since);
   *proto.mutable_expire_time() = to_stamp(lease.expires);
   *proto.mutable_time_to_live() = to_proto(lease.terms.time_to_live);
@@ -65,7 +66,7 @@ v1::Lease to_proto(const server::Lease& lease) {
 v1::Latch to_proto(const server::Latch& latch) {
   v1::Latch proto;
   set_scope(latch.scope, proto);
-  proto.set_by(latch.by);
+  *proto.mutable_caller() = to_caller(latch.by);
   *proto.mutable_time() = to_stamp(latch.at);
   return proto;
 }
@@ -91,14 +92,14 @@ v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board) {
     v1::WaitingLease& one = *proto.add_waiting();
     one.set_place(waiting.place);
     set_scope(waiting.terms.scope, one);
-    one.set_holder(waiting.holder);
+    *one.mutable_caller() = to_caller(waiting.holder);
     *one.mutable_since_time() = to_stamp(waiting.since);
     one.set_purpose(waiting.terms.purpose);
     if (waiting.expected_wait) *one.mutable_expected_wait() = to_proto(*waiting.expected_wait);
   }
   for (const server::Leases::HeldBack& held_back : board.held_back) {
     v1::HeldBack& one = *proto.add_held_back();
-    one.set_who(held_back.who);
+    *one.mutable_caller() = to_caller(held_back.who);
     *one.mutable_latch() = to_proto(held_back.latch);
   }
   return proto;

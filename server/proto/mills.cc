@@ -9,6 +9,7 @@
 #include "server/api/request/names.h"
 #include "server/devices/spooled_jobs.h"
 #include "server/proto/amounts.h"
+#include "server/proto/callers.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
@@ -37,7 +38,7 @@ void add_parts(const jobs::Job& job, v1::Job& proto) {
     added.set_bytes(static_cast<std::int64_t>(part.end - begin));
     begin = part.end;
   }
-  proto.set_part(static_cast<std::int32_t>(job.part));
+  proto.set_part(static_cast<std::int32_t>(job.part) + 1);
 }
 
 v1::JobPlace place_of(const jobs::Place& place) {
@@ -114,17 +115,17 @@ v1::Job to_proto(std::string_view mill, const jobs::Job& job, const server::Mome
   v1::Job proto;
   proto.set_name(api::job_name(mill, job.number));
   proto.set_title(job.name);
-  proto.set_owner(job.owner);
+  *proto.mutable_owner() = to_caller(job.owner);
   *proto.mutable_setup() = setup_of(job.setup);
   proto.set_bytes(static_cast<std::int64_t>(job.bytes));
   if (const jobs::TimeRange takes = jobs::takes(job); takes.most > Duration()) {
-    *proto.mutable_shortest() = to_proto(takes.least);
-    *proto.mutable_longest() = to_proto(takes.most);
+    *proto.mutable_shortest_time() = to_proto(takes.least);
+    *proto.mutable_longest_time() = to_proto(takes.most);
   }
   proto.set_state(to_job_state(job.state));
   if (job.confirmation) {
-    proto.set_confirmed_by(job.confirmation->by);
-    *proto.mutable_confirmed_until() = to_proto(clock.at(job.confirmation->until));
+    *proto.mutable_confirmed_by() = to_caller(job.confirmation->by);
+    *proto.mutable_confirmation_expire_time() = to_proto(clock.at(job.confirmation->until));
   }
   proto.set_not_confirmed_because(job.void_because);
   if (job.written) {
@@ -154,7 +155,7 @@ v1::RunOn to_proto(const jobs::RunOn& run_on) {
   v1::RunOn proto;
   proto.set_at_most(static_cast<std::int64_t>(run_on.at_most));
   proto.set_if_held(static_cast<std::int64_t>(run_on.if_held));
-  *proto.mutable_longest() = to_proto(run_on.longest);
+  *proto.mutable_longest_time() = to_proto(run_on.longest);
   proto.set_mm(run_on.mm);
   return proto;
 }
@@ -171,10 +172,10 @@ v1::RunningJob to_proto(const api::CurrentRun& run) {
   proto.set_executed_least(static_cast<std::int64_t>(job.progress.executed_least));
   proto.set_executed_most(static_cast<std::int64_t>(job.progress.executed_most));
   *proto.mutable_run_on() = to_proto(job.run_on);
-  *proto.mutable_least_left() = to_proto(job.left.least);
-  *proto.mutable_most_left() = to_proto(job.left.most);
+  *proto.mutable_shortest_remaining_time() = to_proto(job.left.least);
+  *proto.mutable_longest_remaining_time() = to_proto(job.left.most);
   proto.set_busy(job.busy);
-  *proto.mutable_started() = to_proto(run.clock.at(job.started));
+  *proto.mutable_start_time() = to_proto(run.clock.at(job.started));
   return proto;
 }
 

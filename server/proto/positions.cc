@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "server/events/wall_time.h"
+#include "server/proto/callers.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
@@ -28,7 +29,7 @@ v1::Position to_proto(const api::NamedPosition& named) {
     coordinate.set_pulses(pulses);
   }
   *proto.mutable_save_time() = to_proto(server::WallTime(position.saved));
-  proto.set_who(position.who);
+  *proto.mutable_caller() = to_caller(position.who);
   proto.set_emptied(named.emptied);
   return proto;
 }

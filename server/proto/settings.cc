@@ -1,5 +1,6 @@
 #include "server/proto/settings.h"
 
+#include <chrono>
 #include <utility>
 
 #include "server/proto/amounts.h"
@@ -47,11 +48,15 @@ Result<stage::Trigger> to_trigger(const v1::Trigger& trigger) {
 Result<void> fill_controller(const v1::Settings& settings, api::SettingsChange& change) {
   if (settings.has_display_lit()) change.display_lit = settings.display_lit();
   if (settings.has_beep()) change.beep = settings.beep();
-  if (settings.has_settling()) change.settling = to_settling(settings.settling());
-  if (settings.has_outputs()) change.outputs = settings.outputs();
+  if (settings.has_settling_time()) change.settling = to_settling(settings.settling_time());
+  if (settings.has_outputs()) {
+    const Result<int> outputs = to_bits(settings.outputs());
+    if (!outputs) return tl::unexpected(outputs.error());
+    change.outputs = *outputs;
+  }
   if (settings.has_sleeping()) change.sleeping = settings.sleeping();
-  if (settings.has_mode()) change.mode = settings.mode();
-  if (settings.has_format()) change.format = settings.format();
+  if (settings.mode() != v1::MODE_UNSPECIFIED) change.mode = to_text(settings.mode());
+  if (settings.format() != v1::COMMAND_FORMAT_UNSPECIFIED) change.format = to_text(settings.format());
   change.inputs_given = settings.has_inputs();
   if (!settings.has_trigger()) return {};
   const Result<stage::Trigger> trigger = to_trigger(settings.trigger());
@@ -74,7 +79,7 @@ Result<api::NewCoordinate> to_coordinate(const v1::AxisCoordinate& coordinate) {
 void fill_speeds(const stage::SpeedSetting& speeds, v1::Profile& profile) {
   profile.mutable_minimum()->set_pulses_per_s(speeds.minimum);
   profile.mutable_maximum()->set_pulses_per_s(speeds.maximum);
-  profile.set_acceleration_ms(speeds.acceleration_ms);
+  *profile.mutable_acceleration_time() = to_proto(std::chrono::milliseconds(speeds.acceleration_ms));
 }
 
 void fill_axis(const stage::AxisSettings& settings, v1::AxisSettings& axis) {
@@ -117,15 +122,15 @@ v1::Settings to_proto(const stage::Settings& settings) {
     one.set_axis(number);
     fill_axis(axis, one);
   }
-  if (settings.settling) *proto.mutable_settling() = to_proto(*settings.settling);
+  if (settings.settling) *proto.mutable_settling_time() = to_proto(*settings.settling);
   if (settings.sleeping) proto.set_sleeping(*settings.sleeping);
   if (settings.display_lit) proto.set_display_lit(*settings.display_lit);
   if (settings.beep) proto.set_beep(*settings.beep);
-  if (settings.outputs) proto.set_outputs(*settings.outputs);
-  if (settings.inputs) proto.set_inputs(*settings.inputs);
+  if (settings.outputs) *proto.mutable_outputs() = to_pins(*settings.outputs);
+  if (settings.inputs) *proto.mutable_inputs() = to_pins(*settings.inputs);
   if (settings.trigger) fill_trigger(*settings.trigger, *proto.mutable_trigger());
-  if (settings.mode) proto.set_mode(*settings.mode);
-  if (settings.format) proto.set_format(*settings.format);
+  if (settings.mode) proto.set_mode(to_mode(*settings.mode));
+  if (settings.format) proto.set_format(to_format(*settings.format));
   return proto;
 }
 

@@ -80,7 +80,11 @@ Result<api::Speeds> to_speeds(const v1::Profile& profile) {
     if (!minimum) return tl::unexpected(minimum.error());
     speeds.minimum = *minimum;
   }
-  if (profile.acceleration_ms() != 0) speeds.acceleration_ms = profile.acceleration_ms();
+  if (profile.has_acceleration_time()) {
+    const Result<int> time = to_milliseconds(profile.acceleration_time());
+    if (!time) return tl::unexpected(time.error());
+    speeds.acceleration_ms = *time;
+  }
   return speeds;
 }
 
@@ -111,9 +115,21 @@ Result<stage::Segment> to_segment(const v1::Segment& segment) {
     if (!speed) return tl::unexpected(speed.error());
     stretch.speed = *speed;
   }
-  if (segment.acceleration_ms() != 0) stretch.acceleration_ms = segment.acceleration_ms();
-  stretch.rest = std::chrono::milliseconds(segment.rest_ms());
-  if (segment.has_inputs()) stretch.inputs = segment.inputs();
+  if (segment.has_acceleration_time()) {
+    const Result<int> time = to_milliseconds(segment.acceleration_time());
+    if (!time) return tl::unexpected(time.error());
+    stretch.acceleration_ms = *time;
+  }
+  if (segment.has_rest_time()) {
+    const Result<int> time = to_milliseconds(segment.rest_time());
+    if (!time) return tl::unexpected(time.error());
+    stretch.rest = std::chrono::milliseconds(*time);
+  }
+  if (segment.has_inputs()) {
+    const Result<int> inputs = to_bits(segment.inputs());
+    if (!inputs) return tl::unexpected(inputs.error());
+    stretch.inputs = *inputs;
+  }
   return stretch;
 }
 
@@ -132,7 +148,11 @@ Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request) {
     if (!speed) return tl::unexpected(on_axis(*axis, speed.error()));
     scan.speed = *speed;
   }
-  if (request.acceleration_ms() != 0) scan.acceleration_ms = request.acceleration_ms();
+  if (request.has_acceleration_time()) {
+    const Result<int> time = to_milliseconds(request.acceleration_time());
+    if (!time) return tl::unexpected(on_axis(*axis, time.error()));
+    scan.acceleration_ms = *time;
+  }
   switch (request.interval_case()) {
     case v1::ScanRequest::kDrivePulses:
       scan.interval = request.drive_pulses();

@@ -11,6 +11,7 @@
 #include "device/stage/envelope.h"
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
+#include "server/proto/callers.h"
 #include "server/proto/mills.h"
 #include "server/proto/problem.h"
 
@@ -92,9 +93,12 @@ void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisS
     axis.set_per_pulse(to_string(state.scale->per_pulse));
     axis.set_rotary(state.scale->rotary);
   }
-  if (state.minimum_speed) axis.set_minimum_speed(*state.minimum_speed);
-  if (state.maximum_speed) axis.set_maximum_speed(*state.maximum_speed);
-  if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
+  v1::Profile& speeds = *axis.mutable_speeds();
+  if (state.minimum_speed) speeds.mutable_minimum()->set_pulses_per_s(*state.minimum_speed);
+  if (state.maximum_speed) speeds.mutable_maximum()->set_pulses_per_s(*state.maximum_speed);
+  if (state.acceleration_ms) {
+    *speeds.mutable_acceleration_time() = to_proto(std::chrono::milliseconds(*state.acceleration_ms));
+  }
 }
 
 void fill_age(TimePoint read, v1::Device& device) {
@@ -125,15 +129,15 @@ void fill_stops(const std::string& device, const stage::State& state, v1::Device
     one.set_name(api::stop_name(device, stop.id));
     for (const int axis : stop.axes.list()) one.add_axes(axis);
     one.set_emergency(stop.kind == stage::StopKind::emergency);
-    for (const std::string& who : stop.callers) one.add_callers(who);
-    *one.mutable_ask_time() = to_proto(server::to_wall(stop.asked));
+    for (const std::string& who : stop.callers) *one.add_callers() = to_caller(who);
+    *one.mutable_request_time() = to_proto(server::to_wall(stop.asked));
     one.set_written(stop.state == stage::StopState::written);
     one.set_late(stop.late);
     one.set_stale_setpoint(stop.stale);
   }
   if (!state.emergency) return;
-  proto.mutable_emergency_latch()->set_who(state.emergency->who);
-  *proto.mutable_emergency_latch()->mutable_time() = to_proto(server::to_wall(state.emergency->at));
+  *proto.mutable_emergency_latch()->mutable_caller() = to_caller(state.emergency->who);
+  *proto.mutable_emergency_latch()->mutable_request_time() = to_proto(server::to_wall(state.emergency->at));
 }
 
 // An EventFiller writes each type of fact to its field of an Event.
@@ -169,7 +173,7 @@ struct EventFiller {
   }
   void operator()(const stage::SwitchesChanged& change) const {
     v1::SwitchesChanged& switches = *event.mutable_switches_changed();
-    switches.set_who(change.who);
+    *switches.mutable_caller() = to_caller(change.who);
     switches.set_unknown(change.unknown);
     for (const auto& one : change.changes) {
       v1::SwitchChange& proto = *switches.add_changes();
@@ -187,7 +191,7 @@ struct EventFiller {
   void operator()(const stage::StopRequested& stop) const {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
     event.mutable_stop_requested()->set_emergency(stop.emergency);
-    event.mutable_stop_requested()->set_who(stop.who);
+    *event.mutable_stop_requested()->mutable_caller() = to_caller(stop.who);
     event.mutable_stop_requested()->set_count(stop.count);
   }
   void operator()(const stage::StopChanged& change) const {
@@ -197,19 +201,19 @@ struct EventFiller {
     proto.set_state(to_stop_state(stop.state));
     for (const int axis : stop.axes.list()) proto.add_axes(axis);
     proto.set_emergency(stop.kind == stage::StopKind::emergency);
-    for (const std::string& who : stop.callers) proto.add_callers(who);
-    if (!is_open(stop.state)) *proto.mutable_after() = to_proto(stop.ended - stop.asked);
+    for (const std::string& who : stop.callers) *proto.add_callers() = to_caller(who);
+    if (!is_open(stop.state)) *proto.mutable_elapsed_time() = to_proto(stop.ended - stop.asked);
     for (const auto& [axis, pulses] : stop.came_to) {
       v1::AxisRest& rest = *proto.add_rests();
       rest.set_axis(axis);
       rest.set_position_pulses(pulses);
     }
     if (stop.replaced_by != 0) proto.set_replaced_by(api::stop_name(record.device, stop.replaced_by));
-    proto.set_withdrawn_by(stop.withdrawn_by);
+    if (!stop.withdrawn_by.empty()) *proto.mutable_withdrawn_by() = to_caller(stop.withdrawn_by);
   }
   void operator()(const stage::EmergencyLatchChanged& change) const {
     event.mutable_emergency_latch()->set_latched(change.latch.has_value());
-    event.mutable_emergency_latch()->set_who(change.who);
+    *event.mutable_emergency_latch()->mutable_caller() = to_caller(change.who);
   }
   void operator()(const server::DaemonStarted& started) const {
     event.mutable_daemon_started()->set_after_unclean_end(started.after_unclean_end);
@@ -218,7 +222,7 @@ struct EventFiller {
     v1::JobChange& proto = *event.mutable_job();
     *proto.mutable_job() = to_proto(record.device, change.job, record.clock);
     if (change.sending) proto.set_sending(to_sending_state(*change.sending));
-    proto.set_who(change.who);
+    if (!change.who.empty()) *proto.mutable_caller() = to_caller(change.who);
     proto.set_why(change.why);
   }
 };
@@ -259,8 +263,8 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   proto.set_model(escaped(state.model));
   proto.set_serial_number(escaped(state.serial_number));
   proto.set_firmware(escaped(state.firmware));
-  proto.set_mode(escaped(state.mode));
-  proto.set_format(escaped(state.format));
+  proto.set_mode(to_mode(state.mode));
+  proto.set_format(to_format(state.format));
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
   for (int number = 1; number <= device.kind().axis_count(); ++number) {
@@ -268,7 +272,7 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
     fill_axis(number, device.profile().axis(number), state.axis(number), axis);
     fill_stage(number, device.profile(), state, axis);
   }
-  if (state.outputs) proto.set_outputs(*state.outputs);
+  if (state.outputs) *proto.mutable_outputs() = to_pins(*state.outputs);
   if (state.trigger) fill_trigger(*state.trigger, *proto.mutable_trigger());
   proto.set_moving_unknown(state.moving_unknown);
   fill_stops(device.name(), state, proto);
@@ -309,7 +313,7 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
   if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
   proto.set_revision(revision);
   set_times(proto, motion, clock);
-  proto.set_who(motion.who);
+  *proto.mutable_caller() = to_caller(motion.who);
   proto.set_request_id(motion.request_id);
   proto.set_segments_total(motion.segments_total);
   proto.set_segments_done(motion.segments_done);

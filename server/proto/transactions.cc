@@ -32,7 +32,7 @@ v1::ExecuteResponse to_response(const stage::ExecuteEvent& event) {
     return response;
   }
   v1::LineReply& reply = *response.mutable_reply();
-  reply.set_line(static_cast<int>(event.line));
+  reply.set_line(static_cast<int>(event.line) + 1);
   reply.set_answer(escaped(event.answer, kWireTextMax));
   reply.set_sent(event.sent);
   reply.set_wire_reply(escaped(event.wire_reply, kWireTextMax));

@@ -62,7 +62,7 @@ TEST_F(MillConfirm, OnlyYesCounts) {
 TEST_F(MillConfirm, ALaterPartIsTheNextToConfirm) {
   v1::Job& job = add_job(v1::JOB_STATE_TOOL_CHANGE);
   for (const char* tool : {"T1", "T2"}) job.add_parts()->set_tool(tool);
-  job.set_part(1);
+  job.set_part(2);
   job.mutable_setup()->set_tool("T2");
   Terminal terminal(STDIN_FILENO);
   terminal.type("yes\n");

@@ -26,13 +26,13 @@ v1::Job frame(int number, v1::JobState state) {
   v1::Job job;
   job.set_name("devices/mill/jobs/" + std::to_string(number));
   job.set_title("frame.rml");
-  job.set_owner("unix anna");
+  job.mutable_owner()->set_name("unix anna");
   job.mutable_setup()->set_digest("3f5a9c001b2d77");
   job.mutable_setup()->set_profile("MDX-20");
   job.mutable_setup()->set_tool("T1");
   job.set_bytes(30'000);
-  *job.mutable_shortest() = TimeUtil::SecondsToDuration(600);
-  *job.mutable_longest() = TimeUtil::SecondsToDuration(1000);
+  *job.mutable_shortest_time() = TimeUtil::SecondsToDuration(600);
+  *job.mutable_longest_time() = TimeUtil::SecondsToDuration(1000);
   job.set_state(state);
   return job;
 }
@@ -42,8 +42,8 @@ void set_left(v1::RunningJob& running, std::int64_t executed_least, std::int64_t
   const auto left = [](std::int64_t ms_a_byte, std::int64_t executed) {
     return TimeUtil::MillisecondsToDuration(ms_a_byte * (30'000 - std::clamp<std::int64_t>(executed, 0, 30'000)));
   };
-  *running.mutable_least_left() = left(20, executed_most);
-  *running.mutable_most_left() =
+  *running.mutable_shortest_remaining_time() = left(20, executed_most);
+  *running.mutable_longest_remaining_time() =
       TimeUtil::MillisecondsToDuration(TimeUtil::DurationToMilliseconds(left(100, executed_least)) / 3);
 }
 
@@ -147,7 +147,7 @@ TEST(MillTexts, APauseSaysWhatStillRuns) {
 TEST(MillTexts, WhatRunsOnHasATime) {
   const auto text = [](std::int64_t ms) {
     v1::RunOn bound = run_on(64, 64);
-    *bound.mutable_longest() = TimeUtil::MillisecondsToDuration(ms);
+    *bound.mutable_longest_time() = TimeUtil::MillisecondsToDuration(ms);
     return run_on_text(bound);
   };
   EXPECT_EQ(text(3200), "after an abort at most 64 bytes, up to 3.2 s, run on");
@@ -158,7 +158,7 @@ TEST(MillTexts, WhatRunsOnHasATime) {
   v1::AbortJobResponse response;
   *response.mutable_running() = running(15'000, 12'300, 13'200);
   *response.mutable_running()->mutable_run_on() = run_on(64, 64);
-  *response.mutable_running()->mutable_run_on()->mutable_longest() = TimeUtil::MillisecondsToDuration(3200);
+  *response.mutable_running()->mutable_run_on()->mutable_longest_time() = TimeUtil::MillisecondsToDuration(3200);
   EXPECT_EQ(paused_text(response.running()),
             "job 7 is paused: 64 bytes of it, up to 3.2 s, still run; the cutter keeps turning in the cut");
   EXPECT_EQ(
@@ -193,7 +193,7 @@ TEST(MillTexts, WhereWhatWasExecutedEnds) {
   EXPECT_EQ(executed_text(job), "by the mill's profile what was executed ends at line 8, column 1");
   job.add_parts();
   job.add_parts();
-  job.set_part(1);
+  job.set_part(2);
   EXPECT_EQ(executed_text(job), "by the mill's profile what was executed of part 2 of 2 ends at line 8, column 1");
   EXPECT_EQ(remains_text(job),
             "`axisctl mill preview FILE --profile mdx-20 --from 8:1 -o rest.svg` draws what remains");
@@ -210,7 +210,7 @@ TEST(MillTexts, HowAJobIsSentAndWhatRunsOn) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
   job.set_streaming(v1::STREAMING_FULL);
   *job.mutable_run_on() = run_on(1560, 1560);
-  *job.mutable_run_on()->mutable_longest() = TimeUtil::MillisecondsToDuration(14'200);
+  *job.mutable_run_on()->mutable_longest_time() = TimeUtil::MillisecondsToDuration(14'200);
   job.mutable_run_on()->set_mm(120.2);
   EXPECT_EQ(state_text(job),
             "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s, full; after an abort at most 1560 bytes, up to "
@@ -239,7 +239,7 @@ TEST(MillTexts, WhatIsSetUpForALaterPart) {
   EXPECT_EQ(setup_lines(job)[1], "  part      1 of 2");
   EXPECT_EQ(setup_question(job),
             "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
-  job.set_part(1);
+  job.set_part(2);
   EXPECT_EQ(setup_lines(job)[1], "  part      2 of 2");
   EXPECT_EQ(setup_lines(job)[2], "  tool      T1");
   EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is set, and nothing is in the way? [yes/no]");
@@ -290,8 +290,8 @@ TEST(MillQueue, ATable) {
   mill.set_profile("MDX-20");
   mill.set_line_open(true);
   *mill.add_jobs() = frame(7, v1::JOB_STATE_CONFIRMED);
-  mill.mutable_jobs(0)->set_confirmed_by("unix bert");
-  *mill.mutable_jobs(0)->mutable_confirmed_until() = TimeUtil::SecondsToTimestamp(1'795'000'200);
+  mill.mutable_jobs(0)->mutable_confirmed_by()->set_name("unix bert");
+  *mill.mutable_jobs(0)->mutable_confirmation_expire_time() = TimeUtil::SecondsToTimestamp(1'795'000'200);
   *mill.mutable_jobs(0)->mutable_extent() = cut_out();
   *mill.add_jobs() = frame(12, v1::JOB_STATE_QUEUED);
   mill.mutable_jobs(1)->mutable_setup()->clear_tool();
@@ -311,7 +311,7 @@ TEST(MillQueue, APartOfAJob) {
   v1::Mill mill;
   v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_TOOL_CHANGE));
   for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
-  job.set_part(1);
+  job.set_part(2);
   job.mutable_setup()->set_tool("T3");
   EXPECT_EQ(queue_lines(mill)[3],
             "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   -     10 min 0 s to 16 min 40 s  now     "
@@ -358,8 +358,8 @@ TEST(MillQueue, WhatWaitsBeginsWhenAllBeforeItIsDone) {
 TEST(MillQueue, OfAJobInAToolChangeWhatIsLeftCounts) {
   v1::Mill mill;
   v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_TOOL_CHANGE));
-  *job.mutable_shortest() = TimeUtil::SecondsToDuration(400);
-  *job.mutable_longest() = TimeUtil::SecondsToDuration(667);
+  *job.mutable_shortest_time() = TimeUtil::SecondsToDuration(400);
+  *job.mutable_longest_time() = TimeUtil::SecondsToDuration(667);
   *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
   EXPECT_EQ(beginnings(mill), (Lines{"now", "in 6 min 40 s to 11 min 7 s"}));
 }

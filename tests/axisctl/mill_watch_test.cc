@@ -28,11 +28,11 @@ class MillWatch : public MillVerbs {
     running.set_taken(executed);
     running.set_executed_least(executed);
     running.set_executed_most(executed);
-    running.mutable_least_left()->set_seconds(600 - executed / 50);
-    running.mutable_most_left()->set_seconds(1000 - executed / 30);
+    running.mutable_shortest_remaining_time()->set_seconds(600 - executed / 50);
+    running.mutable_longest_remaining_time()->set_seconds(1000 - executed / 30);
     running.mutable_run_on()->set_at_most(64);
-    running.mutable_run_on()->mutable_longest()->set_seconds(3);
-    running.mutable_run_on()->mutable_longest()->set_nanos(200'000'000);
+    running.mutable_run_on()->mutable_longest_time()->set_seconds(3);
+    running.mutable_run_on()->mutable_longest_time()->set_nanos(200'000'000);
     return state;
   }
 
@@ -70,7 +70,7 @@ TEST_F(MillWatch, UntilAToolIsToBeChanged) {
   report_end(v1::JOB_STATE_TOOL_CHANGE);
   v1::Job& job = *mill_.watched.back().mutable_jobs(0);
   for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
-  job.set_part(1);
+  job.set_part(2);
   job.mutable_setup()->set_tool("T3");
   const Ended ended = run("mill watch");
   EXPECT_EQ(ended.exit_code, kDone);

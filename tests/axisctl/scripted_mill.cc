@@ -126,7 +126,7 @@ grpc::Status ScriptedMill::CancelJobs(grpc::ServerContext*, const v1::CancelJobs
                                       v1::CancelJobsResponse* response) {
   calls.emplace_back("CancelJobs");
   devices.push_back(request->device());
-  cleared.push_back(request->who());
+  cleared.push_back(request->owner());
   for (const v1::Job& job : mill.jobs()) response->add_jobs(job.name());
   return next_status();
 }
@@ -200,18 +200,18 @@ v1::Job& MillVerbs::add_job(v1::JobState state) {
   v1::Job& job = *mill_.mill.add_jobs();
   job.set_name("devices/mill/jobs/" + std::to_string(6 + mill_.mill.jobs_size()));
   job.set_title("frame.rml");
-  job.set_owner("unix anna");
+  job.mutable_owner()->set_name("unix anna");
   job.mutable_setup()->set_digest("0123456789");
   job.mutable_setup()->set_profile("MDX-20");
   job.mutable_setup()->set_tool("T1");
   job.set_bytes(30'000);
-  *job.mutable_shortest() = google::protobuf::util::TimeUtil::SecondsToDuration(600);
-  *job.mutable_longest() = google::protobuf::util::TimeUtil::SecondsToDuration(1000);
+  *job.mutable_shortest_time() = google::protobuf::util::TimeUtil::SecondsToDuration(600);
+  *job.mutable_longest_time() = google::protobuf::util::TimeUtil::SecondsToDuration(1000);
   job.set_state(state);
   job.set_streaming(v1::STREAMING_PACED);
   job.mutable_run_on()->set_at_most(64);
   job.mutable_run_on()->set_mm(13.5);
-  *job.mutable_run_on()->mutable_longest() = google::protobuf::util::TimeUtil::MillisecondsToDuration(3200);
+  *job.mutable_run_on()->mutable_longest_time() = google::protobuf::util::TimeUtil::MillisecondsToDuration(3200);
   return job;
 }
 

@@ -89,7 +89,7 @@ Ask execute_line(const Options& options, int caller) {
 Ask get_device(const Options& options, int caller) {
   const std::shared_ptr<v1::DeviceService::Stub> stub = v1::DeviceService::NewStub(channel_of(options, caller));
   v1::GetDeviceRequest request;
-  request.set_name(kDevice);
+  request.set_device(kDevice);
   request.mutable_max_age()->set_seconds(options.max_age_ms / 1000);
   request.mutable_max_age()->set_nanos(options.max_age_ms % 1000 * 1'000'000);
   return [stub, request] {

@@ -211,7 +211,7 @@ void run_events(const Options& options) {
 
 void run_states(const Options& options) {
   v1::WatchDeviceRequest request;
-  request.set_name(kDevice);
+  request.set_device(kDevice);
   run<States>(options, [&](const std::shared_ptr<grpc::Channel>& channel, States& stream) {
     v1::DeviceService::NewStub(channel)->async()->WatchDevice(&stream.context(), &request, &stream);
   });

@@ -172,7 +172,7 @@ class Callers(WithDaemon):
             command[command.index("--target") + 1] = target
         answer = subprocess.run([*prefix, *command], capture_output=True, text=True, timeout=2 * LIMIT_S, check=False)
         self.assertEqual((answer.returncode, answer.stderr), (0, ""))
-        return json.loads(answer.stdout.splitlines()[-1])["motion"]["who"]
+        return json.loads(answer.stdout.splitlines()[-1])["motion"]["caller"]["name"]
 
     def tcp_target(self):
         return next(line.split()[5] for line in self.log().splitlines() if "gRPC on" in line)

@@ -192,7 +192,7 @@ class History(unittest.TestCase):
         self.assertEqual(list(rows[0]), ["number", "time", "kind", "device", "who", "motion", "details"])
         ended, entry = rows[0], entries[0]
         self.assertEqual((ended["number"], ended["time"], ended["kind"]), (entry["number"], entry["time"], "MOTION_ENDED"))
-        self.assertEqual((ended["device"], ended["motion"], ended["who"]), ("stage", "1", entry["who"]))
+        self.assertEqual((ended["device"], ended["motion"], ended["who"]), ("stage", "1", entry["caller"]["name"]))
         self.assertEqual(ended["details"], entry["details"], "quotation marks and commas, too")
         for words in (("--json", "history", "--csv"), ("history", "--csv", "--night"), ("history", "--night", "--axis", "1"),
                       ("history", "--motion", "1", "--limit", "1")):

@@ -140,7 +140,7 @@ class Leases(unittest.TestCase):
 
     def own_name(self):
         moved = self.daemon.run("--json", "move", "1=0mm").stdout.splitlines()
-        return json.loads(moved[-1])["motion"]["who"]
+        return json.loads(moved[-1])["motion"]["caller"]["name"]
 
     def test_only_an_administrator_takes_over(self):
         refused = self.run_as_stranger("lease", "run", "--take-over", "--", "true")

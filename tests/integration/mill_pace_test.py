@@ -49,7 +49,7 @@ class MillPace(unittest.TestCase):
         run_on = json.loads(self.gateway.axisctl("--json", "mill", "queue")).get("running", {}).get("run_on", {})
         self.daemon.wait_for_log(rf"job {number} .* is FED")
         self.gateway.axisctl("mill", "done", number)
-        return float(run_on.get("longest", "0s").rstrip("s"))
+        return float(run_on.get("longest_time", "0s").rstrip("s"))
 
     def run_on_of_a_paced_job(self):
         return self.feed("^PA;!MC0;" + "PU2000,1000;PU1000,1000;" * 4, "--streaming", "paced")

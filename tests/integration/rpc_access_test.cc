@@ -182,7 +182,7 @@ class RpcAccess : public RpcTest {
     v1::GetCallerResponse caller;
     const auto stub = v1::AccessService::NewStub(channel);
     const grpc::Status status = stub->GetCaller(&context, {}, &caller);
-    return status.ok() ? caller.who() + ", " + v1::Role_Name(caller.role()) : status.error_message();
+    return status.ok() ? caller.caller().name() + ", " + v1::Role_Name(caller.role()) : status.error_message();
   }
 
   const std::string certificates_ = directory_ + ".certificates";
@@ -251,7 +251,7 @@ TEST_F(RpcAccess, AMotionByToken) {
   context.AddMetadata("authorization", "Bearer " + token(Role::operator_, "right"));
   v1::MoveResponse response;
   ASSERT_TRUE(stage_->Move(&context, move_request(1, "1"), &response).ok());
-  EXPECT_EQ(response.motion().who(), "token right-operator");
+  EXPECT_EQ(response.motion().caller().name(), "token right-operator");
 }
 
 // "BEC: RESET: FMT: MODE: MS: P:ON" are administrators', however they are written, and none of the other lines goes.

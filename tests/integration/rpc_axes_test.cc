@@ -51,7 +51,7 @@ TEST_P(AxesBeyond, AreRefusedByEveryUnaryRequest) {
   refuses(*stage_, &Stage::Scan, device + "axis: AXIS from { pulses: 0 } to { pulses: 900 } drive_pulses: 9");
   refuses(*stage_, &Stage::Stop, device + "axes: AXIS");
   refuses(*stage_, &Stage::Stop, device + "axes: 2 axes: AXIS");
-  refuses(*devices_, &v1::DeviceService::Stub::ClearErrors, "name: \"devices/stage\" axes: AXIS");
+  refuses(*devices_, &v1::DeviceService::Stub::ClearErrors, device + "axes: AXIS");
   using Control = v1::ControlService::Stub;
   refuses(*control_, &Control::AcquireLease, device + "terms { axes: AXIS }");
   refuses(*control_, &Control::TakeOverLease, device + "terms { axes: 1 axes: AXIS }");

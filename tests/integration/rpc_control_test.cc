@@ -66,7 +66,7 @@ TEST_F(ControlTest, ALeaseIsTheHoldersAndItsTokenNobodyElses) {
   EXPECT_EQ(lease.token().size(), 24u);
   EXPECT_EQ(lease.token().substr(0, 8), std::string("\0\0\0\1\0\0\0\1", 8)) << "generation and number";
   EXPECT_THAT(lease.axes(), ElementsAre(1));
-  EXPECT_THAT(lease.holder(), HasSubstr("unix"));
+  EXPECT_THAT(lease.holder().name(), HasSubstr("unix"));
   EXPECT_EQ(lease.at_loss(), v1::AT_LOSS_STOP);
   EXPECT_EQ(lease.time_to_live().seconds(), 10);
   const auto shown = board([](const v1::WatchLeasesResponse& response) { return response.leases_size() == 1; });

@@ -151,16 +151,19 @@ TEST(Segments, RestAndWaitForInputs) {
   const std::string way = "single { axis: 1 distance { pulses: 1 } } ";
   EXPECT_EQ(segment(way).rest, Duration::zero());
   EXPECT_FALSE(segment(way).inputs);
-  EXPECT_EQ(segment(way + "rest_ms: 255000 inputs: 63").rest, milliseconds(255'000));
-  EXPECT_EQ(segment(way + "inputs: 63").inputs, 63);
-  EXPECT_EQ(segment(way + "inputs: 0").inputs, 0);
-  EXPECT_EQ(segment(around(std::string(kCenter) + kAround) + " rest_ms: 1 speed { pulses_per_s: 9 }").rest,
-            milliseconds(1));
-  EXPECT_EQ(refused(way + "rest_ms: -1"), "OUT_OF_RANGE: a rest of -1 ms; 0 to 255000 ms are possible");
-  EXPECT_EQ(refused(way + "rest_ms: 255001"), "OUT_OF_RANGE: a rest of 255001 ms; 0 to 255000 ms are possible");
-  EXPECT_EQ(refused(way + "inputs: -1"), "OUT_OF_RANGE: inputs that show -1; 0 to 63 are possible");
-  EXPECT_EQ(refused(way + "inputs: 64"), "OUT_OF_RANGE: inputs that show 64; 0 to 63 are possible");
-  EXPECT_EQ(refused("rest_ms: 1"), "INVALID_REQUEST: the segment has no shape");
+  EXPECT_EQ(segment(way + "rest_time { seconds: 255 } inputs { on: [1, 2, 3, 4, 5, 6] }").rest, milliseconds(255'000));
+  EXPECT_EQ(segment(way + "inputs { on: [6, 1] }").inputs, 33);
+  EXPECT_EQ(segment(way + "inputs {}").inputs, 0);
+  EXPECT_EQ(
+      segment(around(std::string(kCenter) + kAround) + " rest_time { nanos: 1000000 } speed { pulses_per_s: 9 }").rest,
+      milliseconds(1));
+  EXPECT_EQ(refused(way + "rest_time { seconds: -1 }"), "OUT_OF_RANGE: a time is negative or longer than an hour");
+  EXPECT_EQ(refused(way + "rest_time { seconds: 255 nanos: 1000000 }"),
+            "OUT_OF_RANGE: a rest of 255001 ms; 0 to 255000 ms are possible");
+  EXPECT_EQ(refused(way + "rest_time { nanos: 1 }"), "NOT_REPRESENTABLE: a time of 1 ns is not a whole number of ms");
+  EXPECT_EQ(refused(way + "inputs { on: 0 }"), "OUT_OF_RANGE: there is no pin 0");
+  EXPECT_EQ(refused(way + "inputs { on: 7 }"), "OUT_OF_RANGE: inputs that show 64; 0 to 63 are possible");
+  EXPECT_EQ(refused("rest_time { seconds: 1 }"), "INVALID_REQUEST: the segment has no shape");
 }
 
 TEST(Moves, Approach) {
@@ -180,7 +183,8 @@ Result<stage::ScanRequest> scan(const std::string& text) { return proto::to_scan
 
 TEST(Scans, AreTakenAsWritten) {
   const auto taken = scan(
-      "axis: 2 from { mm: \"-1\" } to { um: \"500\" } speed { um_per_s: \"20\" } acceleration_ms: 50 drive_pulses: "
+      "axis: 2 from { mm: \"-1\" } to { um: \"500\" } speed { um_per_s: \"20\" } acceleration_time { nanos: 50000000 } "
+      "drive_pulses: "
       "100");
   ASSERT_TRUE(taken);
   EXPECT_EQ(taken->axis, 2);

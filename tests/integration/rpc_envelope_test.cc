@@ -142,7 +142,7 @@ TEST_F(RpcEnvelope, ADeviceTellsWhichAxesAreHomedFirst) {
   grpc::ClientContext context;
   limit(context);
   v1::GetDeviceRequest request;
-  request.set_name("devices/stage");
+  request.set_device("devices/stage");
   v1::GetDeviceResponse response;
   ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
   EXPECT_FALSE(response.device().axes(0).require_homing());

@@ -76,7 +76,7 @@ class RpcTest : public ::testing::Test {
     grpc::ClientContext context;
     limit(context);
     v1::WatchDeviceRequest request;
-    request.set_name("devices/stage");
+    request.set_device("devices/stage");
     const auto stream = devices_->WatchDevice(&context, request);
     v1::WatchDeviceResponse response;
     while (stream->Read(&response)) {
@@ -109,7 +109,7 @@ class RpcTest : public ::testing::Test {
     grpc::ClientContext context;
     limit(context);
     v1::WatchMotionRequest request;
-    request.set_name(name);
+    request.set_motion(name);
     const auto stream = stage_->WatchMotion(&context, request);
     v1::WatchMotionResponse response;
     while (stream->Read(&response)) {
@@ -122,7 +122,7 @@ class RpcTest : public ::testing::Test {
     grpc::ClientContext context;
     limit(context);
     v1::GetMotionRequest request;
-    request.set_name(name);
+    request.set_motion(name);
     v1::GetMotionResponse response;
     EXPECT_TRUE(stage_->GetMotion(&context, request, &response).ok());
     return response.motion();

@@ -135,7 +135,7 @@ TEST_F(RpcHistory, EachConditionCounts) {
   EXPECT_THAT(numbers(text), ElementsAre(4));
   v1::ListHistoryRequest device = by_hand();
   device.set_device("devices/stage");
-  device.set_who("unix bert");
+  device.set_caller("unix bert");
   EXPECT_THAT(numbers(device), ElementsAre(5));
 }
 
@@ -177,7 +177,7 @@ TEST_F(RpcHistory, ANightIsSummedUp) {
   ASSERT_TRUE(summarize(request, &night).ok());
   ASSERT_EQ(night.persons_size(), 2);
   const v1::PersonSummary& anna = night.persons(0);
-  EXPECT_EQ(anna.who(), "unix anna");
+  EXPECT_EQ(anna.caller().name(), "unix anna");
   EXPECT_EQ(anna.first_time().seconds(), kEvening + 3);
   EXPECT_EQ(anna.last_time().seconds(), kEvening + 4);
   ASSERT_EQ(anna.motions_size(), 2);
@@ -187,7 +187,7 @@ TEST_F(RpcHistory, ANightIsSummedUp) {
   EXPECT_EQ(anna.motions(1).kind(), v1::MOTION_KIND_RETURN_TO_ORIGIN);
   EXPECT_EQ(anna.motions(1).outcome(), v1::MOTION_STATE_FAILED);
   ASSERT_EQ(night.stops_size(), 1);
-  EXPECT_EQ(night.stops(0).who(), "unix bert");
+  EXPECT_EQ(night.stops(0).caller().name(), "unix bert");
   EXPECT_EQ(night.stops(0).device(), "devices/stage");
   EXPECT_TRUE(night.stops(0).emergency());
   ASSERT_EQ(night.link_losses_size(), 1);

@@ -23,7 +23,7 @@ class OpenStream {
     context_.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(60)));
     if (!authorization.empty()) context_.AddMetadata("authorization", authorization);
     v1::WatchDeviceRequest request;
-    request.set_name("devices/stage");
+    request.set_device("devices/stage");
     reader_ = devices_->WatchDevice(&context_, request);
     v1::WatchDeviceResponse response;
     if (!reader_->Read(&response)) refusal_ = reader_->Finish();
@@ -133,7 +133,7 @@ class RpcLimits : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::GetMotionRequest request;
-    request.set_name(motion);
+    request.set_motion(motion);
     v1::GetMotionResponse response;
     stage_->GetMotion(&context, request, &response);
     return response.motion().state();

@@ -85,7 +85,7 @@ TEST_F(RpcMill, GetDeviceAnswersForAMill) {
     grpc::ClientContext context;
     limit(context);
     v1::GetDeviceRequest request;
-    request.set_name(device.name());
+    request.set_device(device.name());
     v1::GetDeviceResponse got;
     ASSERT_TRUE(devices->GetDevice(&context, request, &got).ok()) << device.name();
     EXPECT_EQ(got.device().name(), device.name());
@@ -136,10 +136,10 @@ TEST_F(RpcMill, AnAdministratorTakesTheWaitingJobsOfACallerOutOfTheQueue) {
   request.set_device(kMill);
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_INVALID_REQUEST) << "of nobody";
   request.mutable_context()->set_request_id("clear-2");
-  request.set_who("unix nobody of that name");
+  request.set_owner("unix nobody of that name");
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_NOT_FOUND);
   request.mutable_context()->set_request_id("clear-3");
-  request.set_who(running.owner());
+  request.set_owner(running.owner().name());
   for (const char* time : {"first", "again"}) {
     v1::CancelJobsResponse response;
     ASSERT_TRUE(ask(&v1::MillService::Stub::CancelJobs, request, &response).ok()) << time;
@@ -166,7 +166,7 @@ TEST_F(RpcMill, TheSpoolHasWhatBecameOfAJobBeforeTheAnswer) {
   EXPECT_TRUE(spool_->list("mill").at(0).ended);
   v1::CancelJobsRequest clear;
   clear.set_device(kMill);
-  clear.set_who(second.owner());
+  clear.set_owner(second.owner().name());
   ASSERT_TRUE(ask(&v1::MillService::Stub::CancelJobs, clear).ok());
   EXPECT_TRUE(spool_->list("mill").at(1).ended);
 }
@@ -210,7 +210,7 @@ TEST_F(RpcMill, ARepeatOfAStartSaysWhatMayRunOn) {
   ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &again).ok());
   EXPECT_GT(again.run_on().at_most(), 0);
   EXPECT_EQ(again.run_on().at_most(), first.run_on().at_most());
-  EXPECT_EQ(again.run_on().longest().nanos(), first.run_on().longest().nanos());
+  EXPECT_EQ(again.run_on().longest_time().nanos(), first.run_on().longest_time().nanos());
 }
 
 TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
@@ -251,7 +251,7 @@ TEST_F(RpcMill, WhoWatchesSeesWhatBecomesOfAJob) {
   EXPECT_THAT(seen, testing::ElementsAre("JOB_STATE_QUEUED", "JOB_STATE_CONFIRMED", "JOB_STATE_RUNNING",
                                          "SENDING_STATE_SENDING", "SENDING_STATE_PAUSED", "abort",
                                          "SENDING_STATE_ABORTING", "JOB_STATE_ABORTED"));
-  EXPECT_THAT(response.event().job().who(), testing::StartsWith("unix "));
+  EXPECT_THAT(response.event().job().caller().name(), testing::StartsWith("unix "));
   context.TryCancel();
 }
 
@@ -264,9 +264,9 @@ TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
   request.mutable_step()->set_x_mm(5);
   v1::OperateMillResponse first, again;
   ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &first).ok());
-  EXPECT_GT(first.longest().seconds(), 0);
+  EXPECT_GT(first.longest_time().seconds(), 0);
   ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &again).ok()) << "the answer of the first";
-  EXPECT_EQ(again.longest().seconds(), first.longest().seconds());
+  EXPECT_EQ(again.longest_time().seconds(), first.longest_time().seconds());
   EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
   v1::OperateMillRequest named;
   named.set_device(kMill);

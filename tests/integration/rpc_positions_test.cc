@@ -23,7 +23,7 @@ class RpcPositions : public RpcTest {
   static v1::SavePositionRequest saving(const std::string& name,
                                         v1::PositionKind kind = v1::POSITION_KIND_UNSPECIFIED) {
     v1::SavePositionRequest request;
-    request.set_name(called(name));
+    request.set_position(called(name));
     request.set_kind(kind);
     return request;
   }
@@ -54,7 +54,7 @@ class RpcPositions : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::DeletePositionRequest request;
-    request.set_name(called(name));
+    request.set_position(called(name));
     request.set_validate_only(validate_only);
     v1::DeletePositionResponse response;
     return stub_->DeletePosition(&context, request, &response);
@@ -63,7 +63,7 @@ class RpcPositions : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::MoveToPositionRequest request;
-    request.set_name(called(name));
+    request.set_position(called(name));
     request.set_validate_only(validate_only);
     v1::MoveToPositionResponse response;
     const grpc::Status status = stub_->MoveToPosition(&context, request, &response);
@@ -111,7 +111,7 @@ class RpcPositions : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::GetDeviceRequest request;
-    request.set_name("devices/stage");
+    request.set_device("devices/stage");
     v1::GetDeviceResponse response;
     EXPECT_TRUE(devices_->GetDevice(&context, request, &response).ok());
     return response.device();
@@ -129,7 +129,7 @@ TEST_F(RpcPositions, SavedListedGoneToAndForgotten) {
   ASSERT_EQ(sample.coordinates_size(), 3);
   EXPECT_EQ(sample.coordinates(0).axis(), 1);
   EXPECT_EQ(sample.coordinates(0).pulses(), 100'000);  // 1 mm at 10 nm a pulse
-  EXPECT_EQ(sample.who(), server::caller_name(::geteuid()));
+  EXPECT_EQ(sample.caller().name(), server::caller_name(::geteuid()));
   EXPECT_GT(sample.save_time().seconds(), 1'700'000'000);
   EXPECT_FALSE(sample.emptied());
   EXPECT_EQ(controller("PIT:GET,1"), "100000,0,0");
@@ -181,7 +181,7 @@ TEST_F(RpcPositions, BadNamesAreRefused) {
     EXPECT_EQ(reason(forget(name)), v1::REASON_INVALID_REQUEST) << name;
   }
   v1::SavePositionRequest request;
-  request.set_name("devices/nowhere/positions/a");
+  request.set_position("devices/nowhere/positions/a");
   EXPECT_EQ(reason(save(request)), v1::REASON_UNKNOWN_DEVICE);
   request = saving("a");
   request.set_kind(static_cast<v1::PositionKind>(7));
@@ -292,7 +292,7 @@ TEST_F(RpcPositions, ACallersOwnEpochIsRefusedInItsOwnWords) {
   grpc::ClientContext context;
   limit(context);
   v1::MoveToPositionRequest request;
-  request.set_name(called("sample"));
+  request.set_position(called("sample"));
   request.mutable_context()->set_device_epoch(99);
   v1::MoveToPositionResponse response;
   const grpc::Status status = stub_->MoveToPosition(&context, request, &response);

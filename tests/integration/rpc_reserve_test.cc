@@ -22,7 +22,7 @@ class ReserveTest : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::GetDeviceRequest request;
-    request.set_name("devices/stage");
+    request.set_device("devices/stage");
     v1::GetDeviceResponse response;
     return v1::DeviceService::NewStub(channel)->GetDevice(&context, request, &response);
   }

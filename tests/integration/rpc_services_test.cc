@@ -58,7 +58,7 @@ TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
   v1::Motion motion;
   ASSERT_TRUE(move(move_request(1, "1"), &motion).ok());
   EXPECT_EQ(motion.name(), "devices/stage/motions/1");
-  EXPECT_EQ(motion.who(), server::caller_name(::geteuid()));
+  EXPECT_EQ(motion.caller().name(), server::caller_name(::geteuid()));
   EXPECT_GT(motion.revision(), 0u);
   const v1::Motion ended = outcome(motion.name());
   EXPECT_EQ(ended.state(), v1::MOTION_STATE_SUCCEEDED);
@@ -70,7 +70,7 @@ TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
   grpc::ClientContext context;
   limit(context);
   v1::GetDeviceRequest request;
-  request.set_name("devices/stage");
+  request.set_device("devices/stage");
   request.mutable_max_age();
   v1::GetDeviceResponse response;
   ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
@@ -230,7 +230,7 @@ TEST_F(RpcTest, InputsStartNothing) {
   const auto stream = stage_->RunPath(&context);
   stream->Write(header());
   v1::RunPathRequest waits = segment_request("50");
-  waits.mutable_segment()->set_inputs(0);
+  waits.mutable_segment()->mutable_inputs();  // none is on
   stream->Write(waits);
   stream->WritesDone();
   v1::RunPathResponse response;

@@ -22,7 +22,7 @@ class RpcStage : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     v1::GetDeviceRequest request;
-    request.set_name("devices/stage");
+    request.set_device("devices/stage");
     request.mutable_max_age();
     v1::GetDeviceResponse response;
     EXPECT_TRUE(devices_->GetDevice(&context, request, &response).ok());

@@ -93,9 +93,9 @@ class Shown(OnAStage):
         self.assertEqual([axis["axis"] for axis in settings["axes"]], [1, 2, 3])
         self.assertIs(settings["axes"][0]["excited"], True)
         self.assertIs(settings["sleeping"], False)
-        self.assertEqual(settings["outputs"], 0)
-        self.assertEqual(json.loads(self.ok("--json", "outputs"))["outputs"], 0)
-        self.assertEqual(json.loads(self.ok("--json", "inputs"))["inputs"], 0)
+        self.assertEqual(settings["outputs"], {"on": []})
+        self.assertEqual(json.loads(self.ok("--json", "outputs"))["outputs"], {"on": []})
+        self.assertEqual(json.loads(self.ok("--json", "inputs"))["inputs"], {"on": []})
         self.assertEqual(json.loads(self.ok("--json", "speed", "x"))["axis"], 1)
         self.assertEqual(json.loads(self.ok("--json", "beep", "off")), {})
 

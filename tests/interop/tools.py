@@ -108,7 +108,7 @@ def check_grpcurl(folder, address):
     services = run_tool(*tool, address, "list").stdout.split()
     if "axisgate.v1.StageService" not in services or len(services) < 10:
         raise AssertionError(f"the services are {services}")
-    shown = run_tool(*tool, "-d", '{"name":"devices/stage"}', address, SERVICE + "GetDevice")
+    shown = run_tool(*tool, "-d", '{"device":"devices/stage"}', address, SERVICE + "GetDevice")
     if shown.returncode != 0 or json.loads(shown.stdout)["device"]["link"] != "LINK_STATE_UP":
         raise AssertionError(shown.stdout + shown.stderr)
     return "2 calls by reflection"
@@ -119,7 +119,7 @@ def check_ghz(folder, address):
     run_tool("protoc", "--proto_path", ROOT / "proto", "--include_imports", "--descriptor_set_out", protocol,
              "axisgate/v1/device.proto")
     shown = run_tool(folder / "suites" / "ghz", "--insecure", "--protoset", protocol, "--call",
-                     "axisgate.v1.DeviceService.GetDevice", "-d", '{"name":"devices/stage"}', "-n", 3000, "-c", 150,
+                     "axisgate.v1.DeviceService.GetDevice", "-d", '{"device":"devices/stage"}', "-n", 3000, "-c", 150,
                      "--connections", 1, "--format", "json", address)
     counts = json.loads(shown.stdout)["statusCodeDistribution"]
     if counts != {"OK": 3000}:

@@ -75,7 +75,7 @@ class Clients {
 
 grpc::Status ask_for_status(const Clients::Channel& channel, std::size_t) {
   v1::GetDeviceRequest request;
-  request.set_name(kDevice);
+  request.set_device(kDevice);
   request.mutable_max_age();  // 0: read now, as axisctl status does
   v1::GetDeviceResponse response;
   grpc::ClientContext context;

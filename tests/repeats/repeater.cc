@@ -89,7 +89,7 @@ class Caller {
       grpc::ClientContext context;
       limit(context);
       v1::GetDeviceRequest request;
-      request.set_name("devices/stage");
+      request.set_device("devices/stage");
       request.mutable_max_age();
       v1::GetDeviceResponse response;
       const bool answered = devices_->GetDevice(&context, request, &response).ok();

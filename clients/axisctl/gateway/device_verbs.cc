@@ -16,7 +16,7 @@ namespace {
 
 v1::Device read_now(const Session& session, const std::string& name) {
   v1::GetDeviceRequest request;
-  request.set_name(name);
+  request.set_device(name);
   request.mutable_max_age();
   return session.connection
       .call(session.connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit)
@@ -33,8 +33,10 @@ std::string_view known(bool is_known, bool value) { return !is_known ? "?" : val
 
 // Returns S, F and R as parameters of D: (manual 89)), in pulses/s and ms; ? if unknown.
 std::string speed_parameters(const v1::Axis& axis) {
-  if (!axis.has_minimum_speed() || !axis.has_maximum_speed() || !axis.has_acceleration_ms()) return "?";
-  return fmt::format("S{}F{}R{}", axis.minimum_speed(), axis.maximum_speed(), axis.acceleration_ms());
+  const v1::Profile& speeds = axis.speeds();
+  if (!speeds.has_minimum() || !speeds.has_maximum() || !speeds.has_acceleration_time()) return "?";
+  return fmt::format("S{}F{}R{}", speeds.minimum().pulses_per_s(), speeds.maximum().pulses_per_s(),
+                     milliseconds(speeds.acceleration_time()));
 }
 
 std::string axis_text(const v1::Axis& axis) {
@@ -53,7 +55,7 @@ std::string ago(const google::protobuf::Timestamp& time) {
 void print_stops(const v1::Device& device) {
   if (device.has_emergency_latch()) {
     print_line(fmt::format("EMERGENCY STOP by {} {}: nothing moves until `axisctl clear`",
-                           device.emergency_latch().who(), ago(device.emergency_latch().time())));
+                           device.emergency_latch().caller().name(), ago(device.emergency_latch().request_time())));
   }
   for (const v1::OpenStop& stop : device.open_stops()) {
     const char* state = stop.stale_setpoint()
@@ -61,7 +63,7 @@ void print_stops(const v1::Device& device) {
                             : "nobody has seen the axes obey it; it is repeated";
     print_line(fmt::format("OPEN STOP {} of {} {} by {} {}: {}", last_part(stop.name()),
                            stop.axes_size() == 1 ? "axis" : "axes", fmt::join(stop.axes(), ", "),
-                           fmt::join(stop.callers(), ", "), ago(stop.ask_time()), state));
+                           names_text(stop.callers()), ago(stop.request_time()), state));
   }
 }
 
@@ -74,8 +76,8 @@ void print_status(const v1::Device& device) {
     return;
   }
   print_line(fmt::format("controller  {} {} {}  serial number {}  mode {}  format {}  epoch {}", device.vendor(),
-                         device.model(), device.firmware(), device.serial_number(), device.mode(), device.format(),
-                         device.device_epoch()));
+                         device.model(), device.firmware(), device.serial_number(), mode_text(device.mode()),
+                         format_text(device.format()), device.device_epoch()));
   for (const v1::Axis& axis : device.axes()) print_line(axis_text(axis));
   print_line(fmt::format("outputs {}  trigger {}", device.has_outputs() ? pins_text(device.outputs(), "OUT") : "?",
                          device.has_trigger() ? trigger_text(device.trigger()) : "?"));

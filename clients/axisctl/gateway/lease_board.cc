@@ -7,7 +7,8 @@
 namespace axisgate::axisctl {
 
 std::string latch_text(const v1::Latch& latch) {
-  return fmt::format("stopped by {} at {} on {}: must rearm", latch.by(), time_text(latch.time()), scope_text(latch));
+  return fmt::format("stopped by {} at {} on {}: must rearm", latch.caller().name(), time_text(latch.time()),
+                     scope_text(latch));
 }
 
 v1::WatchLeasesResponse board_now(const Session& session, const std::string& device) {

@@ -31,7 +31,7 @@ namespace {
 void print_board(const v1::WatchLeasesResponse& board) {
   for (const v1::Lease& lease : board.leases()) {
     std::string text =
-        fmt::format("{}  held by {} since {}", scope_text(lease), lease.holder(), time_text(lease.since_time()));
+        fmt::format("{}  held by {} since {}", scope_text(lease), lease.holder().name(), time_text(lease.since_time()));
     if (!lease.purpose().empty()) text += fmt::format("  ({})", lease.purpose());
     if (!lease.ending().empty()) text += fmt::format("  ending: {}", lease.ending());
     if (lease.has_latch()) text += "  " + latch_text(lease.latch());
@@ -39,13 +39,13 @@ void print_board(const v1::WatchLeasesResponse& board) {
   }
   for (const v1::WaitingLease& waiting : board.waiting()) {
     std::string text = fmt::format("{}  {} waits since {}  place {} in the queue", scope_text(waiting),
-                                   waiting.holder(), time_text(waiting.since_time()), waiting.place());
+                                   waiting.caller().name(), time_text(waiting.since_time()), waiting.place());
     if (!waiting.purpose().empty()) text += fmt::format("  ({})", waiting.purpose());
     if (waiting.has_expected_wait()) text += fmt::format("  expected wait {} s", waiting.expected_wait().seconds());
     print_line(text);
   }
   for (const v1::HeldBack& held_back : board.held_back()) {
-    print_line(fmt::format("{}  {}", held_back.who(), latch_text(held_back.latch())));
+    print_line(fmt::format("{}  {}", held_back.caller().name(), latch_text(held_back.latch())));
   }
   if (board.leases().empty() && board.waiting().empty() && board.held_back().empty()) print_line("no leases");
 }
@@ -87,7 +87,7 @@ int lease_hand_over(const Session& session) {
   if (request.context().lease_token().empty())
     throw usage("this is not inside `axisctl lease run`", "only the holder can hand a lease over");
   request.set_device(any_device(session).name());
-  request.set_to(session.options.holder);
+  request.set_caller(session.options.holder);
   session.connection.call(session.connection.control, &v1::ControlService::Stub::HandOverLease, request,
                           kQuestionLimit);
   print_line(fmt::format("handed over to {}", session.options.holder));

@@ -13,8 +13,8 @@ namespace {
 
 void print_released(const v1::RearmResponse& response) {
   for (const v1::Latch& latch : response.latches()) {
-    print_line(
-        fmt::format("released: the stop of {} by {} at {}", scope_text(latch), latch.by(), time_text(latch.time())));
+    print_line(fmt::format("released: the stop of {} by {} at {}", scope_text(latch), latch.caller().name(),
+                           time_text(latch.time())));
   }
   print_line(fmt::format("{} may move again", scope_text(response)));
 }
@@ -26,10 +26,11 @@ std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
     return fmt::format(
         "you have no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` as its holder, or inside its "
         "`axisctl lease run`",
-        lease.holder(), scope_text(lease.latch()));
+        lease.holder().name(), scope_text(lease.latch()));
   }
   for (const v1::HeldBack& one : board.held_back()) {
-    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.who(), scope_text(one.latch()));
+    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.caller().name(),
+                       scope_text(one.latch()));
   }
   return "there is no latch";
 }
@@ -52,7 +53,7 @@ int rearm(const Session& session) {
   }
   if (device.has_emergency_latch()) {
     print_line(fmt::format("the emergency stop of {} remains, and nothing moves: `axisctl clear` ends it",
-                           device.emergency_latch().who()));
+                           device.emergency_latch().caller().name()));
   }
   return kDone;
 }

@@ -42,7 +42,8 @@ std::string token_text(const v1::Token& token) {
 int who_am_i(const Session& session) {
   const v1::GetCallerResponse caller = session.connection.call(
       session.connection.access, &v1::AccessService::Stub::GetCaller, v1::GetCallerRequest(), kQuestionLimit);
-  session.options.json ? print_json(caller) : print_line(fmt::format("{}, {}", caller.who(), role_name(caller.role())));
+  session.options.json ? print_json(caller)
+                       : print_line(fmt::format("{}, {}", caller.caller().name(), role_name(caller.role())));
   return kDone;
 }
 
@@ -79,7 +80,7 @@ int token_list(const Session& session) {
 int token_revoke(const Session& session) {
   v1::RevokeTokenRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(session.options.name);
+  request.set_token(session.options.name);
   session.connection.call(session.connection.access, &v1::AccessService::Stub::RevokeToken, request, kQuestionLimit);
   print_line(fmt::format("{} is revoked", session.options.name));
   return kDone;

@@ -78,7 +78,7 @@ int audit_erase(const Session& session) {
   if (!session.options.yes)
     throw usage("nothing was erased: nothing could bring the name back", "to erase it, add --yes");
   v1::ErasePersonRequest request;
-  request.set_who(who);
+  request.set_caller(who);
   const v1::ErasePersonResponse erased = session.connection.call(
       session.connection.history, &v1::HistoryService::Stub::ErasePerson, request, kJournalLimit);
   if (session.options.json) {

@@ -24,7 +24,7 @@ std::string kind_text(v1::HistoryKind kind) {
 
 std::string csv_row(const v1::HistoryEntry& entry) {
   return fmt::format("{},{},{},{},{},{},{}", entry.number(), google::protobuf::util::TimeUtil::ToString(entry.time()),
-                     kind_text(entry.kind()), csv_quoted(last_part(entry.device())), csv_quoted(entry.who()),
+                     kind_text(entry.kind()), csv_quoted(last_part(entry.device())), csv_quoted(entry.caller().name()),
                      last_part(entry.motion()), csv_quoted(entry.details()));
 }
 

@@ -66,8 +66,8 @@ std::string ending_text(const std::string& why) {
 }
 
 std::string lease_text(const v1::HistoryEntry& entry, const Json& details) {
-  const std::string lease =
-      fmt::format("lease {} of {} over {}", details.value("lease", std::uint64_t{}), entry.who(), axes_text(details));
+  const std::string lease = fmt::format("lease {} of {} over {}", details.value("lease", std::uint64_t{}),
+                                        entry.caller().name(), axes_text(details));
   if (entry.kind() == v1::HISTORY_KIND_LEASE_ENDED) return lease + " ended: " + ending_text(details.value("why", "?"));
   return lease + " granted" + (details.value("taken_over", false) ? ", taken over from others" : "");
 }
@@ -182,9 +182,9 @@ std::string text_of(const v1::HistoryEntry& entry) {
     case v1::HISTORY_KIND_LEASE_ENDED:
       return lease_text(entry, details);
     case v1::HISTORY_KIND_LATCHED:
-      return fmt::format("{} is held back from {} until they rearm", entry.who(), axes_text(details));
+      return fmt::format("{} is held back from {} until they rearm", entry.caller().name(), axes_text(details));
     case v1::HISTORY_KIND_REARMED:
-      return fmt::format("{} rearmed {}", entry.who(), axes_text(details));
+      return fmt::format("{} rearmed {}", entry.caller().name(), axes_text(details));
     case v1::HISTORY_KIND_JOB_CHANGED:
       return job_entry_text(details, because);
     default:
@@ -203,7 +203,7 @@ std::string line_of(const v1::HistoryEntry& entry) {
   std::string line = time_text(entry.time());
   if (!entry.device().empty()) line += fmt::format("  {}", last_part(entry.device()));
   line += "  " + text_of(entry);
-  return entry.who().empty() || names_caller(entry.kind()) ? line : line + ", by " + entry.who();
+  return entry.caller().name().empty() || names_caller(entry.kind()) ? line : line + ", by " + entry.caller().name();
 }
 
 std::vector<std::string> exchanges_of(const v1::HistoryEntry& entry) {

@@ -36,7 +36,7 @@ v1::ListHistoryRequest request_of(const Session& session) {
   const Options& options = session.options;
   v1::ListHistoryRequest request;
   request.set_device(options.device);
-  request.set_who(options.who);
+  request.set_caller(options.who);
   if (options.motion) {
     request.set_motion(fmt::format("{}/motions/{}", chosen_device(session).name(), *options.motion));
     request.set_order(v1::ListHistoryRequest::ORDER_OLDEST_FIRST);

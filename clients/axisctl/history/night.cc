@@ -112,20 +112,22 @@ std::string person_text(const v1::PersonSummary& person, const NightClock& clock
   for (const auto& [kind, outcomes] : by_kind) motions.push_back(motions_text(kind, outcomes));
   const std::string when = first == last ? first : first + " to " + last;
   const std::string refused = person.refused() == 0 ? "" : fmt::format("; {} refused", person.refused());
-  return fmt::format("{} {}: {}{}", when, person.who().empty() ? "an unknown caller" : person.who(),
+  return fmt::format("{} {}: {}{}", when, person.caller().name().empty() ? "an unknown caller" : person.caller().name(),
                      motions.empty() ? "no motion" : fmt::format("{}", fmt::join(motions, ", ")), refused);
 }
 
 std::string stop_text(const v1::StopSummary& stop, const NightClock& clock) {
   return fmt::format("{} of {} by {} at {}", stop.emergency() ? "emergency stop" : "stop", last_part(stop.device()),
-                     stop.who().empty() ? "an unknown caller" : stop.who(), clock.text(stop.time()));
+                     stop.caller().name().empty() ? "an unknown caller" : stop.caller().name(),
+                     clock.text(stop.time()));
 }
 
 std::string late_text(const v1::LateStop& stop, const NightClock& clock) {
   return fmt::format("{} of {} by {} {} at {}, {} after it was requested", stop.emergency() ? "emergency stop" : "stop",
-                     last_part(stop.device()), stop.who().empty() ? "an unknown caller" : stop.who(),
+                     last_part(stop.device()),
+                     stop.caller().name().empty() ? "an unknown caller" : stop.caller().name(),
                      stop.confirmed() ? "confirmed" : "withdrawn, and never confirmed,", clock.text(stop.time()),
-                     duration_text(stop.after()));
+                     duration_text(stop.elapsed_time()));
 }
 
 std::string loss_text(const v1::LinkLoss& loss, const NightClock& clock) {

@@ -26,7 +26,7 @@ std::string tool_change_text(const v1::Job& job) {
   return fmt::format(
       "{} TOOL_CHANGE: part {} of {} was sent, and the slowest mill has executed it by now; put in the tool {}, set "
       "Z0, then `axisctl mill confirm {} --start`",
-      job_text(job), job.part(), job.parts_size(), on_one_line(job.setup().tool()), last_part(job.name()));
+      job_text(job), job.part() - 1, job.parts_size(), on_one_line(job.setup().tool()), last_part(job.name()));
 }
 
 // Text for a job that waits for a person, with nothing wrong: FED, TOOL_CHANGE or PAUSED. Empty for other states.

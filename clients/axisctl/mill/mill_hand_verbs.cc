@@ -42,7 +42,8 @@ int operate(const Session& session, v1::OperateMillRequest request, std::string_
     print_json(response);
     return kDone;
   }
-  const double seconds = static_cast<double>(response.longest().seconds()) + response.longest().nanos() * 1e-9;
+  const double seconds =
+      static_cast<double>(response.longest_time().seconds()) + response.longest_time().nanos() * 1e-9;
   print_line(seconds == 0
                  ? fmt::format("{} was sent", sent)
                  : fmt::format("{} was sent; by its profile the mill has done it within {:.1f} s", sent, seconds));

@@ -97,7 +97,7 @@ int mill_cancel(const Session& session) {
 
 int mill_clear(const Session& session) {
   auto request = mill_request<v1::CancelJobsRequest>(session);
-  request.set_who(session.options.who);
+  request.set_owner(session.options.who);
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJobs, request, kQuestionLimit);
   std::vector<std::string> numbers;
@@ -105,7 +105,7 @@ int mill_clear(const Session& session) {
   const bool one = numbers.size() == 1;
   return report_answer(session, response,
                        fmt::format("{} {} of {} {} CANCELLED", one ? "job" : "jobs", fmt::join(numbers, ", "),
-                                   on_one_line(request.who()), one ? "is" : "are"));
+                                   on_one_line(request.owner()), one ? "is" : "are"));
 }
 
 int mill_first(const Session& session) {

@@ -62,8 +62,8 @@ std::string streaming_text(const v1::Job& job) {
 
 // Returns "12 min 0 s to 18 min 30 s, paced".
 std::string takes_text(const v1::Job& job) {
-  if (!job.has_longest()) return "a time that is not known";
-  const std::string range = range_text(duration_text(job.shortest()), duration_text(job.longest()));
+  if (!job.has_longest_time()) return "a time that is not known";
+  const std::string range = range_text(duration_text(job.shortest_time()), duration_text(job.longest_time()));
   const std::string streaming = streaming_text(job);
   return streaming.empty() ? range : fmt::format("{}, {}", range, streaming);
 }
@@ -93,9 +93,9 @@ google::protobuf::Duration rounded_up(const google::protobuf::Duration& duration
 
 // Returns ", up to 3.2 s and 14 mm,". Both are rounded up, because they are upper bounds.
 std::string within_text(const v1::RunOn& run_on) {
-  if (!run_on.has_longest()) return "";
+  if (!run_on.has_longest_time()) return "";
   const std::string way = run_on.mm() > 0 ? fmt::format(" and {:.0f} mm", std::ceil(run_on.mm())) : "";
-  return fmt::format(", up to {}{},", duration_text(rounded_up(run_on.longest())), way);
+  return fmt::format(", up to {}{},", duration_text(rounded_up(run_on.longest_time())), way);
 }
 
 std::string held_text(const v1::RunOn& run_on) {
@@ -111,12 +111,13 @@ std::string named_or(const std::string& name, std::string_view otherwise) {
 }
 
 std::string confirmation_text(const v1::Job& job) {
-  return fmt::format("by {} until {}", on_one_line(job.confirmed_by()), time_text(job.confirmed_until()));
+  return fmt::format("by {} until {}", on_one_line(job.confirmed_by().name()),
+                     time_text(job.confirmation_expire_time()));
 }
 
 // Returns "2 of 3"; empty if the job has only one part.
 std::string part_text(const v1::Job& job) {
-  return job.parts_size() < 2 ? "" : fmt::format("{} of {}", job.part() + 1, job.parts_size());
+  return job.parts_size() < 2 ? "" : fmt::format("{} of {}", job.part(), job.parts_size());
 }
 
 // Returns the tool that is in the mill, or is next.
@@ -177,7 +178,7 @@ std::string reach_text(const v1::JobExtent& extent) {
 std::vector<std::string> job_cells(const v1::Job& job, const v1::RunningJob& running, const std::string& begins) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
-          on_one_line(job.owner()),
+          on_one_line(job.owner().name()),
           state_cell(job, running),
           tool_cell(job),
           named_or(job.setup().origin(), "panel"),
@@ -229,7 +230,7 @@ std::string change_text(const v1::JobChange& change) {
   std::string text =
       fmt::format("{} {}", job_text(change.job()), paused ? name_of(change.sending()) : name_of(change.job().state()));
   if (!paused && change.sending() != v1::SENDING_STATE_UNSPECIFIED) text += ": " + name_of(change.sending());
-  if (!change.who().empty()) text += ", by " + change.who();
+  if (!change.caller().name().empty()) text += ", by " + change.caller().name();
   return change.why().empty() ? text : text + ": " + change.why();
 }
 
@@ -277,9 +278,9 @@ std::string paused_text(const v1::RunningJob& running) {
 // Returns the advice for an emergency. An abort is no emergency stop: bytes that the mill has received may run on.
 std::string emergency_text(const v1::RunOn& run_on) {
   using google::protobuf::util::TimeUtil;
-  if (!run_on.has_longest()) return "in an emergency use its own emergency stop";
+  if (!run_on.has_longest_time()) return "in an emergency use its own emergency stop";
   return fmt::format("it may move for up to {}: in an emergency use its own emergency stop",
-                     duration_text(rounded_up(run_on.longest())));
+                     duration_text(rounded_up(run_on.longest_time())));
 }
 
 std::string aborted_text(const v1::AbortJobResponse& response) {
@@ -357,7 +358,7 @@ std::string waiting_text(const v1::Mill& mill) {
 
 std::vector<std::string> setup_lines(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
-  std::vector<std::string> lines{fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
+  std::vector<std::string> lines{fmt::format("{} of {}", job_text(job), on_one_line(job.owner().name())),
                                  fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
                                  fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
                                  fmt::format("  profile   {}", on_one_line(setup.profile())),
@@ -388,7 +389,7 @@ std::string setup_question(const v1::Job& job) {
   if (setup.has_from()) {
     return fmt::format("The tool{} is in, Z0 is as it was, and nothing is in the way? [yes/no]", with(setup.tool()));
   }
-  if (job.part() > 0) {
+  if (job.part() > 1) {
     return fmt::format("The tool{} is in, Z0 is set, and nothing is in the way? [yes/no]", with(setup.tool()));
   }
   return fmt::format("The material is in, the tool{} is in, the origin{} is set, and nothing is in the way? [yes/no]",

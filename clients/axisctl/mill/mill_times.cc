@@ -9,9 +9,9 @@ using google::protobuf::Duration;
 
 TimeRange still_takes(const v1::Job& job, const v1::RunningJob& running) {
   if (running.job() == job.name()) return time_left(running);
-  if (waits(job)) return {job.shortest(), job.longest()};
+  if (waits(job)) return {job.shortest_time(), job.longest_time()};
   const bool is_over = job.state() == v1::JOB_STATE_FED || job.state() == v1::JOB_STATE_PAUSED_UNKNOWN;
-  return {Duration(), is_over ? Duration() : job.longest()};
+  return {Duration(), is_over ? Duration() : job.longest_time()};
 }
 
 }  // namespace
@@ -21,7 +21,9 @@ bool waits(const v1::Job& job) {
          job.state() == v1::JOB_STATE_TOOL_CHANGE || job.state() == v1::JOB_STATE_PAUSED;
 }
 
-TimeRange time_left(const v1::RunningJob& running) { return {running.least_left(), running.most_left()}; }
+TimeRange time_left(const v1::RunningJob& running) {
+  return {running.shortest_remaining_time(), running.longest_remaining_time()};
+}
 
 std::vector<std::optional<TimeRange>> earliest_beginnings(const v1::Mill& mill) {
   using google::protobuf::operator+=;

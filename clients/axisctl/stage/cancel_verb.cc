@@ -23,7 +23,7 @@ std::string motion_name(const Session& session, const std::string& text) {
 
 v1::Device device_of_motion(const Session& session, const std::string& motion) {
   v1::GetDeviceRequest request;
-  request.set_name(motion.substr(0, motion.find("/motions/")));
+  request.set_device(motion.substr(0, motion.find("/motions/")));
   return session.connection
       .call(session.connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit)
       .device();
@@ -31,7 +31,7 @@ v1::Device device_of_motion(const Session& session, const std::string& motion) {
 
 v1::Motion motion_now(const Session& session, const std::string& name) {
   v1::GetMotionRequest request;
-  request.set_name(name);
+  request.set_motion(name);
   return session.connection.call(session.connection.stage, &v1::StageService::Stub::GetMotion, request, kQuestionLimit)
       .motion();
 }
@@ -46,11 +46,11 @@ std::string fate_text(const v1::Device& device, const v1::Motion& motion, std::s
 int cancel(const Session& session) {
   v1::CancelMotionRequest request;
   *request.mutable_context() = new_stop_context();
-  request.set_name(motion_name(session, session.options.name));
-  const v1::Device device = device_of_motion(session, request.name());
-  const bool ended_before = motion_now(session, request.name()).state() >= v1::MOTION_STATE_SUCCEEDED;
+  request.set_motion(motion_name(session, session.options.name));
+  const v1::Device device = device_of_motion(session, request.motion());
+  const bool ended_before = motion_now(session, request.motion()).state() >= v1::MOTION_STATE_SUCCEEDED;
   session.connection.call(session.connection.stage, &v1::StageService::Stub::CancelMotion, request, kStopLimit);
-  const v1::Motion motion = await_outcome(session, request.name());
+  const v1::Motion motion = await_outcome(session, request.motion());
   if (!ended_before && motion.state() != v1::MOTION_STATE_STOPPED) return report_outcome(session, device, motion);
   if (session.options.json) {
     v1::GetMotionResponse answer;

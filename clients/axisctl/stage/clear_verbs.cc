@@ -15,7 +15,7 @@ namespace {
 int withdraw_stop(const Session& session) {
   v1::WithdrawStopRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(fmt::format("{}/stops/{}", chosen_device(session).name(), session.options.open_stop));
+  request.set_stop(fmt::format("{}/stops/{}", chosen_device(session).name(), session.options.open_stop));
   const v1::WithdrawStopResponse response = session.connection.call(
       session.connection.devices, &v1::DeviceService::Stub::WithdrawStop, request, kQuestionLimit);
   if (session.options.json) {
@@ -30,7 +30,7 @@ int clear(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::ClearErrorsRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(device.name());
+  request.set_device(device.name());
   for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
   const v1::ClearErrorsResponse response = session.connection.call(
       session.connection.devices, &v1::DeviceService::Stub::ClearErrors, request, kQuestionLimit);

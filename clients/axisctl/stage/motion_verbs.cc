@@ -30,7 +30,7 @@ v1::AxisTarget target(const Session& session, const v1::Device& device, const st
     *target.mutable_profile()->mutable_maximum() = parse_speed_for(axis, session.options.speed);
   }
   if (session.options.acceleration_ms != 0) {
-    target.mutable_profile()->set_acceleration_ms(session.options.acceleration_ms);
+    *target.mutable_profile()->mutable_acceleration_time() = from_milliseconds(session.options.acceleration_ms);
   }
   if (!session.options.approach.empty()) {
     *target.mutable_approach() = parse_amount_for(axis, session.options.approach);

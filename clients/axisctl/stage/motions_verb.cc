@@ -44,7 +44,7 @@ std::vector<std::string> cells_of(const v1::Motion& motion, const google::protob
           kind_name(motion.kind()),
           fmt::format("{}", fmt::join(motion.axes(), ",")),
           state_name(motion.state()),
-          motion.who(),
+          motion.caller().name(),
           motion.has_start_time() ? time_text(motion.start_time()) : "not started",
           motion.has_end_time() ? time_text(motion.end_time()) : "for " + duration_text(since, now)};
 }

@@ -198,10 +198,10 @@ v1::Segment parse_segment(const v1::Device& device, const PathOptions& options, 
     fill_straight(course, segment, places);
   }
   segment.set_relative(!options.absolute);
-  segment.set_acceleration_ms(options.acceleration_ms);
+  if (options.acceleration_ms != 0) *segment.mutable_acceleration_time() = from_milliseconds(options.acceleration_ms);
   if (!manner.speed.empty()) *segment.mutable_speed() = parse_speed_for(lowest_axis(device, places), manner.speed);
-  if (manner.rest_ms) segment.set_rest_ms(static_cast<int>(*manner.rest_ms));
-  if (manner.inputs) segment.set_inputs(static_cast<int>(*manner.inputs));
+  if (manner.rest_ms) *segment.mutable_rest_time() = from_milliseconds(*manner.rest_ms);
+  if (manner.inputs) *segment.mutable_inputs() = to_pins(static_cast<int>(*manner.inputs));
   return segment;
 }
 

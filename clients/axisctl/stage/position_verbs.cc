@@ -32,15 +32,15 @@ std::string places_text(const v1::Device& device, const v1::Position& position) 
 std::string whole_text(const v1::Device& device, const v1::Position& position) {
   const bool place = position.kind() == v1::POSITION_KIND_PLACE;
   return fmt::format("{}  {} {}  {}  saved {} by {}{}", last_part(position.name()), place ? "place" : "coordinates",
-                     position.number(), places_text(device, position), time_text(position.save_time()), position.who(),
-                     position.emptied() ? "  the controller may have lost it" : "");
+                     position.number(), places_text(device, position), time_text(position.save_time()),
+                     position.caller().name(), position.emptied() ? "  the controller may have lost it" : "");
 }
 
 int save_position(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::SavePositionRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(position_name(session, device));
+  request.set_position(position_name(session, device));
   request.set_kind(session.options.coordinates ? v1::POSITION_KIND_COORDINATES : v1::POSITION_KIND_PLACE);
   request.set_keep_existing(session.options.keep);
   const v1::SavePositionResponse saved = session.connection.call(
@@ -70,7 +70,7 @@ int go_to_position(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::MoveToPositionRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(position_name(session, device));
+  request.set_position(position_name(session, device));
   return start_and_wait(session, device, [&] {
     return session.connection
         .call(session.connection.positions, &v1::PositionService::Stub::MoveToPosition, request, kStartLimit)
@@ -81,7 +81,7 @@ int go_to_position(const Session& session) {
 int forget_position(const Session& session) {
   v1::DeletePositionRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(position_name(session, chosen_device(session)));
+  request.set_position(position_name(session, chosen_device(session)));
   return report_done(session,
                      session.connection.call(session.connection.positions, &v1::PositionService::Stub::DeletePosition,
                                              request, kSettingLimit));

@@ -20,7 +20,7 @@ int scan(const Session& session) {
   *request.mutable_from() = parse_amount_for(axis, options.from);
   *request.mutable_to() = parse_amount_for(axis, options.to);
   if (!options.speed.empty()) *request.mutable_speed() = parse_speed_for(axis, options.speed);
-  request.set_acceleration_ms(options.acceleration_ms);
+  if (options.acceleration_ms != 0) *request.mutable_acceleration_time() = from_milliseconds(options.acceleration_ms);
   if (options.by_scale) {
     request.set_scale_pulses(options.every);
   } else {

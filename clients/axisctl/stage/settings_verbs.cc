@@ -26,7 +26,8 @@ bool switched_on(const Session& session) { return session.options.value == "on";
 std::string label_of(const v1::Device& device, int axis) { return axis_label(find_axis(device, std::to_string(axis))); }
 
 std::string profile_text(const v1::Profile& profile) {
-  const std::string time = profile.acceleration_ms() == 0 ? "?" : fmt::format("{} ms", profile.acceleration_ms());
+  const std::string time =
+      profile.has_acceleration_time() ? fmt::format("{} ms", milliseconds(profile.acceleration_time())) : "?";
   return fmt::format("minimum {}, maximum {}, acceleration {}", speed_text(profile.minimum()),
                      speed_text(profile.maximum()), time);
 }
@@ -45,9 +46,10 @@ void print_axis(const v1::Device& device, const v1::AxisSettings& axis) {
 }
 
 std::string settling_text(const v1::Settings& settings) {
-  if (!settings.has_settling()) return "?";
+  if (!settings.has_settling_time()) return "?";
   constexpr std::int64_t nanoseconds_per_tenth = 100'000'000;
-  const std::int64_t tenths = settings.settling().seconds() * 10 + settings.settling().nanos() / nanoseconds_per_tenth;
+  const std::int64_t tenths =
+      settings.settling_time().seconds() * 10 + settings.settling_time().nanos() / nanoseconds_per_tenth;
   return to_string(Decimal{tenths, 1}) + " s";
 }
 
@@ -64,8 +66,8 @@ void print_settings(const v1::Device& device, const v1::Settings& settings) {
   print("outputs", settings.has_outputs() ? pins_text(settings.outputs(), "OUT") : "?");
   print("inputs", settings.has_inputs() ? pins_text(settings.inputs(), "IN") : "?");
   print("trigger", settings.has_trigger() ? trigger_text(settings.trigger()) : "?");
-  print("mode", settings.has_mode() ? settings.mode() : "?");
-  print("dialect", settings.has_format() ? settings.format() : "?");
+  print("mode", settings.mode() == v1::MODE_UNSPECIFIED ? "?" : mode_text(settings.mode()));
+  print("dialect", settings.format() == v1::COMMAND_FORMAT_UNSPECIFIED ? "?" : format_text(settings.format()));
 }
 
 int show_speeds(const Session& session, const v1::Device& device) {
@@ -88,7 +90,7 @@ v1::Profile wanted_profile(const Options& options, const v1::Axis& axis) {
   v1::Profile profile;
   if (!options.minimum.empty()) *profile.mutable_minimum() = parse_speed_for(axis, options.minimum);
   if (!options.maximum.empty()) *profile.mutable_maximum() = parse_speed_for(axis, options.maximum);
-  profile.set_acceleration_ms(options.acceleration_ms);
+  if (options.acceleration_ms != 0) *profile.mutable_acceleration_time() = from_milliseconds(options.acceleration_ms);
   return profile;
 }
 
@@ -154,8 +156,8 @@ int change_divisions(const Session& session) {
 int change_settling(const Session& session) {
   const std::int64_t tenths = settling_tenths(session.options.value);
   return change_controller(session, [&](v1::Settings& wanted) {
-    wanted.mutable_settling()->set_seconds(tenths / 10);
-    wanted.mutable_settling()->set_nanos(static_cast<std::int32_t>(tenths % 10) * 100'000'000);
+    wanted.mutable_settling_time()->set_seconds(tenths / 10);
+    wanted.mutable_settling_time()->set_nanos(static_cast<std::int32_t>(tenths % 10) * 100'000'000);
   });
 }
 
@@ -176,11 +178,12 @@ int switch_beep(const Session& session) {
 }
 
 int change_mode(const Session& session) {
-  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_mode(session.options.value); });
+  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_mode(parse_mode(session.options.value)); });
 }
 
 int change_dialect(const Session& session) {
-  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_format(session.options.value); });
+  return change_controller(session,
+                           [&](v1::Settings& wanted) { wanted.set_format(parse_format(session.options.value)); });
 }
 
 int reset_controller(const Session& session) {

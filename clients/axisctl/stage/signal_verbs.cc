@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -17,12 +18,18 @@
 namespace axisgate::axisctl {
 namespace {
 
-int switched(int now, const Options& options) {
+v1::Pins switched(const v1::Pins& now, const Options& options) {
+  std::set<int> on(now.on().begin(), now.on().end());
   for (const int output : options.outputs) {
-    const int bit = 1 << (output - 1);
-    now = options.value == "on" ? now | bit : now & ~bit;
+    if (options.value == "on") {
+      on.insert(output);
+    } else {
+      on.erase(output);
+    }
   }
-  return now;
+  v1::Pins pins;
+  pins.mutable_on()->Add(on.begin(), on.end());
+  return pins;
 }
 
 void check_outputs(const Options& options) {
@@ -36,7 +43,7 @@ void check_outputs(const Options& options) {
 int show_outputs(const Session& session, const v1::Settings& settings) {
   if (session.options.json) {
     v1::Settings shown;
-    if (settings.has_outputs()) shown.set_outputs(settings.outputs());
+    if (settings.has_outputs()) *shown.mutable_outputs() = settings.outputs();
     print_json(shown);
   } else {
     print_line(settings.has_outputs() ? pins_text(settings.outputs(), "OUT") : "?");
@@ -101,17 +108,17 @@ int outputs(const Session& session) {
   if (!options.value.empty()) check_outputs(options);
   const v1::Device device = chosen_device(session);
   v1::Settings wanted;
-  wanted.set_outputs(0);
+  wanted.mutable_outputs();  // none
   if (options.value == "none") return change_settings(session, device, wanted);
   // The daemon tracks the outputs, so the controller need not be asked while an axis moves.
   v1::Settings settings;
-  if (device.has_outputs()) settings.set_outputs(device.outputs());
+  if (device.has_outputs()) *settings.mutable_outputs() = device.outputs();
   if (options.value.empty()) return show_outputs(session, settings);
   if (!settings.has_outputs()) {
     throw Failure{kRefused, "INVALID_REQUEST", "the state of the other outputs is unknown",
                   "try again, or begin with `axisctl outputs none`"};
   }
-  wanted.set_outputs(switched(settings.outputs(), options));
+  *wanted.mutable_outputs() = switched(settings.outputs(), options);
   return change_settings(session, device, wanted);
 }
 
@@ -119,7 +126,7 @@ int inputs(const Session& session) {
   const v1::Settings settings = settings_of(session, chosen_device(session));
   if (session.options.json) {
     v1::Settings shown;
-    if (settings.has_inputs()) shown.set_inputs(settings.inputs());
+    if (settings.has_inputs()) *shown.mutable_inputs() = settings.inputs();
     print_json(shown);
   } else {
     print_line(settings.has_inputs() ? pins_text(settings.inputs(), "IN") : "?");

@@ -134,7 +134,7 @@ std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& reque
   };
   const auto max_age = request.has_max_age() ? std::optional(proto::to_span(request.max_age())) : std::nullopt;
   return one_answer<api::DeviceNow>(asked.served, asked.wake, fill, [&](api::Answer<api::DeviceNow> answer) {
-    api_.devices.get({.credential = asked.served->credential(), .deadline = asked.deadline}, request.name(), max_age,
+    api_.devices.get({.credential = asked.served->credential(), .deadline = asked.deadline}, request.device(), max_age,
                      std::move(answer));
   });
 }

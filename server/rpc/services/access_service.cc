@@ -3,6 +3,7 @@
 
 #include "axisgate/v1/access.grpc.pb.h"
 #include "server/api/sharing/tokens.h"
+#include "server/proto/callers.h"
 #include "server/proto/tokens.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
@@ -20,7 +21,7 @@ class AccessService final : public v1::AccessService::CallbackService {
                                       v1::GetCallerResponse* response) override {
     return answer_at_once(response, tokens_.caller(to_call(*context)),
                           [](v1::GetCallerResponse& answer, const server::Caller& caller) {
-                            answer.set_who(caller.who);
+                            *answer.mutable_caller() = proto::to_caller(caller.who);
                             answer.set_role(static_cast<v1::Role>(caller.role));
                           });
   }
@@ -46,7 +47,7 @@ class AccessService final : public v1::AccessService::CallbackService {
   grpc::ServerUnaryReactor* RevokeToken(grpc::CallbackServerContext* context, const v1::RevokeTokenRequest* request,
                                         v1::RevokeTokenResponse* response) override {
     const auto call = UnaryCall<v1::RevokeTokenResponse>::start(response);
-    answering(call)(tokens_.revoke(to_call(*context), request->name()));
+    answering(call)(tokens_.revoke(to_call(*context), request->token()));
     return call.get();
   }
 

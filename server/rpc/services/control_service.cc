@@ -68,7 +68,7 @@ class ControlService final : public v1::ControlService::CallbackService {
   grpc::ServerUnaryReactor* HandOverLease(grpc::CallbackServerContext* context, const v1::HandOverLeaseRequest* request,
                                           v1::HandOverLeaseResponse* response) override {
     const auto call = UnaryCall<v1::HandOverLeaseResponse>::start(response);
-    leases_.hand_over(to_call(*context, request->context()), request->device(), request->to(), answering(call));
+    leases_.hand_over(to_call(*context, request->context()), request->device(), request->caller(), answering(call));
     return call.get();
   }
 

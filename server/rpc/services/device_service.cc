@@ -20,7 +20,7 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
                                                                  const v1::WatchDeviceRequest* request) override {
     return serve<v1::WatchDeviceResponse>(
-        devices_.watch(to_call(*context), request->name(), proto::to_span(request->min_interval())),
+        devices_.watch(to_call(*context), request->device(), proto::to_span(request->min_interval())),
         [](v1::WatchDeviceResponse& response, const api::DeviceState& now) {
           *response.mutable_device() = proto::to_proto(*now.device, *now.state);
         });
@@ -29,7 +29,7 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,
                                         v1::ClearErrorsResponse* response) override {
     const auto call = UnaryCall<v1::ClearErrorsResponse>::start(response);
-    devices_.clear_errors(to_checked_call(*context, *request), request->name(), proto::to_axes(request->axes()),
+    devices_.clear_errors(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
                           answering(call));
     return call.get();
   }
@@ -37,7 +37,7 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   grpc::ServerUnaryReactor* WithdrawStop(grpc::CallbackServerContext* context, const v1::WithdrawStopRequest* request,
                                          v1::WithdrawStopResponse* response) override {
     const auto call = UnaryCall<v1::WithdrawStopResponse>::start(response);
-    devices_.withdraw_stop(to_call(*context, request->context()), request->name(), answering(call));
+    devices_.withdraw_stop(to_call(*context, request->context()), request->stop(), answering(call));
     return call.get();
   }
 

@@ -57,7 +57,7 @@ class HistoryService final : public v1::HistoryService::CallbackService {
   grpc::ServerUnaryReactor* ErasePerson(grpc::CallbackServerContext* context, const v1::ErasePersonRequest* request,
                                         v1::ErasePersonResponse* response) override {
     const auto call = UnaryCall<v1::ErasePersonResponse>::start(response);
-    history_.erase(to_call(*context), request->who(),
+    history_.erase(to_call(*context), request->caller(),
                    answering<server::journal::NamedPerson>(
                        call, [](v1::ErasePersonResponse& answer, const server::journal::NamedPerson& person) {
                          answer.set_entries(person.entries);

@@ -125,7 +125,7 @@ class MillService final : public v1::MillService::CallbackService {
                                        v1::CancelJobsResponse* response) override {
     const auto call = UnaryCall<v1::CancelJobsResponse>::start(response);
     mill_.waiting.cancel_all(
-        to_acting_call(*context, *request), request->device(), request->who(),
+        to_acting_call(*context, *request), request->device(), request->owner(),
         answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
           for (const jobs::JobNumber job : cancelled.jobs) {
             answer.add_jobs(api::job_name(cancelled.mill->name(), job));
@@ -154,7 +154,7 @@ class MillService final : public v1::MillService::CallbackService {
     const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
     mill_.operation.operate(to_acting_call(*context, *request), request->device(), proto::to_hand_request(*request),
                             answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
-                              *answer.mutable_longest() = proto::to_proto(longest);
+                              *answer.mutable_longest_time() = proto::to_proto(longest);
                             }));
     return call.get();
   }

@@ -22,7 +22,7 @@ class PositionService final : public v1::PositionService::CallbackService {
                                          v1::SavePositionResponse* response) override {
     using Saved = std::optional<api::NamedPosition>;
     const auto call = UnaryCall<v1::SavePositionResponse>::start(response);
-    positions_.save(to_checked_call(*context, *request), request->name(), proto::to_wish(*request),
+    positions_.save(to_checked_call(*context, *request), request->position(), proto::to_wish(*request),
                     answering<Saved>(call, [](v1::SavePositionResponse& answer, const Saved& saved) {
                       if (saved) *answer.mutable_position() = proto::to_proto(*saved);
                     }));
@@ -44,7 +44,7 @@ class PositionService final : public v1::PositionService::CallbackService {
                                            const v1::DeletePositionRequest* request,
                                            v1::DeletePositionResponse* response) override {
     const auto call = UnaryCall<v1::DeletePositionResponse>::start(response);
-    positions_.remove(to_checked_call(*context, *request), request->name(), answering(call));
+    positions_.remove(to_checked_call(*context, *request), request->position(), answering(call));
     return call.get();
   }
 
@@ -53,7 +53,7 @@ class PositionService final : public v1::PositionService::CallbackService {
                                            v1::MoveToPositionResponse* response) override {
     const auto call = UnaryCall<v1::MoveToPositionResponse>::start(response);
     positions_.move_to(
-        to_checked_call(*context, *request), request->name(),
+        to_checked_call(*context, *request), request->position(),
         answering<api::StartedMotion>(call, [](v1::MoveToPositionResponse& answer, const api::StartedMotion& motion) {
           if (motion) *answer.mutable_motion() = proto::to_proto(*motion);
         }));

@@ -82,7 +82,7 @@ class StageService final : public v1::StageService::CallbackService {
                                       v1::GetMotionResponse* response) override {
     const auto call = UnaryCall<v1::GetMotionResponse>::start(response);
     motions_.get(
-        to_call(*context), request->name(),
+        to_call(*context), request->motion(),
         answering<api::CurrentMotion>(call, [](v1::GetMotionResponse& answer, const api::CurrentMotion& motion) {
           *answer.mutable_motion() = proto::to_proto(motion);
         }));
@@ -102,7 +102,7 @@ class StageService final : public v1::StageService::CallbackService {
 
   grpc::ServerWriteReactor<v1::WatchMotionResponse>* WatchMotion(grpc::CallbackServerContext* context,
                                                                  const v1::WatchMotionRequest* request) override {
-    return serve<v1::WatchMotionResponse>(motions_.watch(to_call(*context), request->name()),
+    return serve<v1::WatchMotionResponse>(motions_.watch(to_call(*context), request->motion()),
                                           [](v1::WatchMotionResponse& response, const api::CurrentMotion& motion) {
                                             *response.mutable_motion() = proto::to_proto(motion);
                                           });
@@ -111,7 +111,7 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const v1::CancelMotionRequest* request,
                                          v1::CancelMotionResponse* response) override {
     const auto call = UnaryCall<v1::CancelMotionResponse>::start(response);
-    motions_.cancel(to_call(*context, request->context()), request->name(), answering(call));
+    motions_.cancel(to_call(*context, request->context()), request->motion(), answering(call));
     return call.get();
   }
 

@@ -26,7 +26,7 @@ func repeat(n int, call func()) {
 
 // getStage returns the stage. Its state was read before, unless maxAge says otherwise.
 func getStage(c *client, maxAge *durationpb.Duration) *api.Device {
-	device := must(c.GetDevice(background, &api.GetDeviceRequest{Name: stage, MaxAge: maxAge})).GetDevice()
+	device := must(c.GetDevice(background, &api.GetDeviceRequest{Device: stage, MaxAge: maxAge})).GetDevice()
 	expect("the name in GetDevice", device.GetName(), stage)
 	return device
 }
@@ -36,7 +36,7 @@ func checkDevice(c *client) {
 }
 
 func checkCaller(c *client) {
-	if must(c.GetCaller(background, &api.GetCallerRequest{})).Who == "" {
+	if must(c.GetCaller(background, &api.GetCallerRequest{})).GetCaller().GetName() == "" {
 		fail("GetCaller: seen an empty name, expected another")
 	}
 }
@@ -53,7 +53,7 @@ func checkList(c *client) {
 func unaryFront(c *client) {
 	repeat(200, func() { checkDevice(c) })
 	repeat(200, func() { checkList(c) })
-	_, err := c.GetDevice(background, &api.GetDeviceRequest{Name: "devices/none"})
+	_, err := c.GetDevice(background, &api.GetDeviceRequest{Device: "devices/none"})
 	expectCode("GetDevice of devices/none", err, codes.NotFound)
 }
 
@@ -63,7 +63,7 @@ func unaryGRPC(c *client) {
 	if len(commands) <= 50 {
 		fail("ListCommands: seen %d commands, expected more than 50", len(commands))
 	}
-	_, err := c.GetMotion(background, &api.GetMotionRequest{Name: stage + "/motions/999999999"})
+	_, err := c.GetMotion(background, &api.GetMotionRequest{Motion: stage + "/motions/999999999"})
 	expectCode("GetMotion of 999999999", err, codes.NotFound)
 }
 

@@ -153,7 +153,7 @@ func longMetadata(c *client) {
 	for _, kib := range []int{8, 15, 40} {
 		ctx := metadata.AppendToOutgoingContext(background, "x-note", strings.Repeat("a", kib<<10))
 		_, caller := c.GetCaller(ctx, &api.GetCallerRequest{})
-		_, device := c.GetDevice(ctx, &api.GetDeviceRequest{Name: stage})
+		_, device := c.GetDevice(ctx, &api.GetDeviceRequest{Device: stage})
 		expectLong(fmt.Sprintf("GetCaller with %d KiB", kib), caller, kib)
 		expectLong(fmt.Sprintf("GetDevice with %d KiB", kib), device, kib)
 	}

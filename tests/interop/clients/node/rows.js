@@ -18,7 +18,7 @@ function say(line) {
 
 // More: max_age, where the state may not be older.
 function getStage(api, more = {}) {
-  return api.call('DeviceService.GetDevice', { name: STAGE, ...more });
+  return api.call('DeviceService.GetDevice', { device: STAGE, ...more });
 }
 
 function getCaller(api) {
@@ -78,16 +78,16 @@ rows['unary-front'] = async (api) => {
     const { devices } = await api.call('DeviceService.ListDevices', {});
     expect('devices', devices.map((device) => device.name).sort(), [MILL, STAGE]);
   }
-  await api.call('DeviceService.GetDevice', { name: 'devices/none' }, { code: 'NOT_FOUND' });
+  await api.call('DeviceService.GetDevice', { device: 'devices/none' }, { code: 'NOT_FOUND' });
 };
 
 rows['unary-grpc'] = async (api) => {
   for (let n = 0; n < 200; n += 1) {
-    if (!(await getCaller(api)).who) fail('who', 'nothing', 'a name');
+    if (!(await getCaller(api)).caller?.name) fail('who', 'nothing', 'a name');
   }
   const { commands } = await api.call('CommandService.ListCommands', { device: STAGE });
   if (commands.length <= 50) fail('commands', commands.length, 'more than 50');
-  await api.call('StageService.GetMotion', { name: `${STAGE}/motions/999999999` }, { code: 'NOT_FOUND' });
+  await api.call('StageService.GetMotion', { motion: `${STAGE}/motions/999999999` }, { code: 'NOT_FOUND' });
 };
 
 rows.watch = async (api) => {
@@ -212,7 +212,7 @@ rows.metadata = async (api) => {
   for (const [kib, code] of [[8, 'OK'], [15, 'OK'], [40, 'RESOURCE_EXHAUSTED']]) {
     const options = { metadata: { 'x-note': 'a'.repeat(kib * 1024) }, code };
     await api.call('AccessService.GetCaller', {}, options);
-    await api.call('DeviceService.GetDevice', { name: STAGE }, options);
+    await api.call('DeviceService.GetDevice', { device: STAGE }, options);
   }
   await move(api, watch);
 };

@@ -44,7 +44,7 @@ def say(line):
 
 def get_stage(calls, max_age=None, **options):
     """No max_age: as it was read last."""
-    request = device_pb2.GetDeviceRequest(name=STAGE, max_age=max_age)
+    request = device_pb2.GetDeviceRequest(device=STAGE, max_age=max_age)
     answer = calls.call("device.DeviceService.GetDevice", request, **options)
     return answer and answer.device
 
@@ -99,19 +99,19 @@ def unary_front(calls):
     for _ in range(200):
         answer = calls.call("device.DeviceService.ListDevices", device_pb2.ListDevicesRequest())
         expect("devices", sorted(device.name for device in answer.devices), [MILL, STAGE])
-    nothing = device_pb2.GetDeviceRequest(name="devices/none")
+    nothing = device_pb2.GetDeviceRequest(device="devices/none")
     calls.call("device.DeviceService.GetDevice", nothing, code="NOT_FOUND")
 
 
 @row("unary-grpc")
 def unary_grpc(calls):
     for _ in range(200):
-        if not get_caller(calls).who:
+        if not get_caller(calls).caller.name:
             raise Failure("who", "nothing", "a name")
     answer = calls.call("command.CommandService.ListCommands", command_pb2.ListCommandsRequest(device=STAGE))
     if len(answer.commands) <= 50:
         raise Failure("commands", len(answer.commands), "more than 50")
-    nothing = stage_pb2.GetMotionRequest(name=f"{STAGE}/motions/999999999")
+    nothing = stage_pb2.GetMotionRequest(motion=f"{STAGE}/motions/999999999")
     calls.call("stage.StageService.GetMotion", nothing, code="NOT_FOUND")
 
 
@@ -269,7 +269,7 @@ def metadata(calls):
 @row("many")
 def many(calls):
     watch = Watch(calls)
-    request = device_pb2.GetDeviceRequest(name=STAGE)
+    request = device_pb2.GetDeviceRequest(device=STAGE)
     begun = [calls.begin("device.DeviceService.GetDevice", request) for _ in range(500)]
     for n in range(10):
         move(calls, watch, n)

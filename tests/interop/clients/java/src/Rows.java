@@ -27,7 +27,7 @@ final class Rows {
   static final String STAGE = "devices/stage";
   private static final String MILL = "devices/mill";
   private static final String JOB = "^IN;!MC0;!PZ-50,200;" + "PU4000,0;PU0,0;".repeat(4000) + "H;\n";
-  private static final GetDeviceRequest GET_STAGE = GetDeviceRequest.newBuilder().setName(STAGE).build();
+  private static final GetDeviceRequest GET_STAGE = GetDeviceRequest.newBuilder().setDevice(STAGE).build();
   private static final GetDeviceRequest GET_STAGE_NOW =
       GET_STAGE.toBuilder().setMaxAge(com.google.protobuf.Duration.getDefaultInstance()).build();
 
@@ -76,7 +76,7 @@ final class Rows {
       var all = devices.listDevices(ListDevicesRequest.getDefaultInstance()).getDevicesList();
       Failure.expect("ListDevices", all.stream().map(Device::getName).sorted().toList(), List.of(MILL, STAGE));
     }
-    var none = GetDeviceRequest.newBuilder().setName("devices/none").build();
+    var none = GetDeviceRequest.newBuilder().setDevice("devices/none").build();
     Failure.expect("GetDevice of no device", status(() -> devices.getDevice(none)).getCode(), Code.NOT_FOUND);
   }
 
@@ -86,7 +86,7 @@ final class Rows {
     }
     int count = commands.listCommands(ListCommandsRequest.newBuilder().setDevice(STAGE).build()).getCommandsCount();
     Failure.check(count > 50, "ListCommands", count, "more than 50");
-    var none = GetMotionRequest.newBuilder().setName(STAGE + "/motions/999999999").build();
+    var none = GetMotionRequest.newBuilder().setMotion(STAGE + "/motions/999999999").build();
     Failure.expect("GetMotion of no motion", status(() -> stage.getMotion(none)).getCode(), Code.NOT_FOUND);
   }
 
@@ -284,7 +284,7 @@ final class Rows {
   }
 
   private void getCaller() {
-    String who = access.getCaller(GetCallerRequest.getDefaultInstance()).getWho();
+    String who = access.getCaller(GetCallerRequest.getDefaultInstance()).getCaller().getName();
     Failure.check(!who.isEmpty(), "GetCaller", "no who", "a caller");
   }
 

@@ -170,7 +170,7 @@ impl Gateway {
 
     /// Returns the stage. The daemon reads its state again if that is older than `max_age`.
     pub async fn stage_not_older(&self, max_age: Option<prost_types::Duration>) -> Check<Device> {
-        let message = GetDeviceRequest { name: STAGE.to_string(), max_age };
+        let message = GetDeviceRequest { device: STAGE.to_string(), max_age };
         let answer = self.devices().get_device(request(message)).await.during("GetDevice")?;
         let device = answer.into_inner().device.unwrap_or_default();
         expect("device.name", &device.name, STAGE, device.name == STAGE)?;

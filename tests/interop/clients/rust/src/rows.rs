@@ -58,7 +58,7 @@ async fn unary_front(gateway: &Gateway) -> Check {
         names.sort();
         expect("ListDevices", &names, "the mill and the stage", names == [MILL, STAGE])?;
     }
-    let message = GetDeviceRequest { name: "devices/none".to_string(), max_age: None };
+    let message = GetDeviceRequest { device: "devices/none".to_string(), max_age: None };
     let answer = gateway.devices().get_device(request(message)).await;
     expect_code("GetDevice(devices/none)", &answer, Code::NotFound)
 }
@@ -71,14 +71,14 @@ async fn unary_grpc(gateway: &Gateway) -> Check {
     let answer = gateway.commands().list_commands(request(message)).await.during("ListCommands")?;
     let commands = answer.into_inner().commands.len();
     expect("number of commands", commands, "more than 50", commands > 50)?;
-    let message = GetMotionRequest { name: format!("{STAGE}/motions/999999999") };
+    let message = GetMotionRequest { motion: format!("{STAGE}/motions/999999999") };
     let answer = gateway.stages().get_motion(request(message)).await;
     expect_code("GetMotion(999999999)", &answer, Code::NotFound)
 }
 
 async fn caller(gateway: &Gateway) -> Check {
     let answer = gateway.access().get_caller(request(GetCallerRequest {})).await.during("GetCaller")?;
-    let who = answer.into_inner().who;
+    let who = answer.into_inner().caller.unwrap_or_default().name;
     expect("who", &who, "a name", !who.is_empty())
 }
 
@@ -281,7 +281,7 @@ async fn metadata(gateway: &Gateway) -> Check {
         let call = noted(GetCallerRequest {}, kib);
         let answer = gateway.access().get_caller(call).await;
         expect_code(&format!("GetCaller with {kib} KiB"), &answer, expected)?;
-        let call = noted(GetDeviceRequest { name: STAGE.to_string(), max_age: None }, kib);
+        let call = noted(GetDeviceRequest { device: STAGE.to_string(), max_age: None }, kib);
         let answer = gateway.devices().get_device(call).await;
         expect_code(&format!("GetDevice with {kib} KiB"), &answer, expected)?;
     }
@@ -299,7 +299,7 @@ async fn many(gateway: &Gateway) -> Check {
     let mut calls = JoinSet::new();
     for _ in 0..500 {
         let mut client = gateway.devices();
-        let message = GetDeviceRequest { name: STAGE.to_string(), max_age: None };
+        let message = GetDeviceRequest { device: STAGE.to_string(), max_age: None };
         calls.spawn(async move { client.get_device(request(message)).await });
     }
     for _ in 0..10 {
