@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kKeepEvery{3};
 v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std::vector<std::string>& axes,
                      v1::AtLoss at_loss) {
   v1::LeaseTerms wanted;
-  for (const int axis : find_axes(device, axes)) wanted.add_axes(axis);
+  for (const int axis : find_axes(device, axes)) wanted.add_axes(std::to_string(axis));
   wanted.set_at_loss(at_loss);
   wanted.set_purpose(session.options.purpose);
   return wanted;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
+#include <cctype>
+
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 
@@ -106,7 +108,7 @@ v1::AxisDistance parse_place(const v1::Device& device, std::string_view text) {
   }
   const v1::Axis& axis = find_axis(device, text.substr(0, equals));
   v1::AxisDistance place;
-  place.set_axis(axis.number());
+  place.set_axis(std::to_string(axis.number()));
   *place.mutable_distance() = parse_amount_for(axis, text.substr(equals + 1));
   return place;
 }
@@ -119,7 +121,7 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
                 "e.g. 1=+ 2=-; `axisctl move` moves by a distance");
   }
   v1::AxisJog jog;
-  jog.set_axis(find_axis(device, text.substr(0, equals)).number());
+  jog.set_axis(std::to_string(find_axis(device, text.substr(0, equals)).number()));
   jog.set_direction(sign == "+" ? v1::AxisJog::DIRECTION_PLUS : v1::AxisJog::DIRECTION_MINUS);
   return jog;
 }
@@ -137,14 +139,18 @@ google::protobuf::Duration from_milliseconds(std::int64_t count) {
 }
 
 v1::Mode parse_mode(const std::string& text) {
+  std::string name = "MODE_" + text;
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   v1::Mode mode = v1::MODE_UNSPECIFIED;
-  if (!v1::Mode_Parse("MODE_" + text, &mode)) throw usage(fmt::format("there is no mode \"{}\"", text), "");
+  if (!v1::Mode_Parse(name, &mode)) throw usage(fmt::format("there is no mode \"{}\"", text), "");
   return mode;
 }
 
 v1::CommandFormat parse_format(const std::string& text) {
+  std::string name = "COMMAND_FORMAT_" + text;
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   v1::CommandFormat format = v1::COMMAND_FORMAT_UNSPECIFIED;
-  if (!v1::CommandFormat_Parse("COMMAND_FORMAT_" + text, &format)) {
+  if (!v1::CommandFormat_Parse(name, &format)) {
     throw usage(fmt::format("there is no command format \"{}\"", text), "");
   }
   return format;

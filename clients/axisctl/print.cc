@@ -217,6 +217,7 @@ std::string speed_text(const v1::Speed& speed) {
       return speed.mm_per_s() + " mm/s";
     case v1::Speed::kDegreesPerS:
       return speed.degrees_per_s() + " deg/s";
+    case v1::Speed::kFloating:  // only in requests
     case v1::Speed::AMOUNT_NOT_SET:
       break;
   }
@@ -259,13 +260,13 @@ std::string trigger_text(const v1::Trigger& trigger) {
     case v1::Trigger::TARGET_NONE:
       return "none";
     case v1::Trigger::TARGET_TIMER:
-      return fmt::format("every {} s", to_string(Decimal{trigger.interval(), 2}));
+      return fmt::format("every {} s", to_string(Decimal{milliseconds(trigger.period()) / 10, 2}));
     case v1::Trigger::TARGET_DRIVE_PULSES:
-      return fmt::format("every {} drive pulses of axis {}", trigger.interval(), trigger.axis());
+      return fmt::format("every {} drive pulses of axis {}", trigger.distance().pulses(), trigger.axis());
     case v1::Trigger::TARGET_SCALE_PLUS:
-      return fmt::format("every {} scale pulses of axis {} in direction +", trigger.interval(), trigger.axis());
+      return fmt::format("every {} scale pulses of axis {} in direction +", trigger.scale_pulses(), trigger.axis());
     case v1::Trigger::TARGET_SCALE_MINUS:
-      return fmt::format("every {} scale pulses of axis {} in direction -", trigger.interval(), trigger.axis());
+      return fmt::format("every {} scale pulses of axis {} in direction -", trigger.scale_pulses(), trigger.axis());
     default:
       return "?";
   }

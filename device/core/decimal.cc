@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "device/core/escape.h"
@@ -38,27 +43,48 @@ std::optional<Parts> split(std::string_view unsigned_text) {
   return parts;
 }
 
+// Reads what follows the "e": an optional sign, and one to three digits.
+std::optional<int> exponent_of(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  if (text.empty() || text.size() > 3 || !all_digits(text)) return std::nullopt;
+  int exponent = 0;
+  std::from_chars(text.data(), text.data() + text.size(), exponent);
+  return negative ? -exponent : exponent;
+}
+
 }  // namespace
 
 Result<Decimal> parse_decimal(std::string_view text) {
   const bool has_sign = !text.empty() && (text.front() == '+' || text.front() == '-');
-  const std::optional<Parts> parts = split(text.substr(has_sign ? 1 : 0));
-  if (!parts) {
+  const std::size_t mark = std::min(text.find_first_of("eE"), text.size());
+  const std::optional<Parts> parts = split(text.substr(0, mark).substr(has_sign ? 1 : 0));
+  const std::optional<int> exponent = mark == text.size() ? 0 : exponent_of(text.substr(mark + 1));
+  if (!parts || !exponent) {
     return fail(Reason::invalid_request, '"' + escaped(text) + "\" is not a number",
-                "Write a number like 5, -200 or 0.25: no exponent, no blanks.");
+                "Write a number like 5, -200, 0.25 or 2.5e-3, without blanks.");
   }
-  std::string_view fraction = parts->fraction;
-  while (!fraction.empty() && fraction.back() == '0') fraction.remove_suffix(1);
-  std::string digits = std::string(parts->whole).append(fraction);
+  std::string digits = std::string(parts->whole).append(parts->fraction);
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
-  if (digits.size() > kDigitsMax || fraction.size() > kDigitsMax) {
+  int decimals = static_cast<int>(parts->fraction.size()) - *exponent;
+  for (; decimals > 0 && digits.ends_with('0'); --decimals) digits.pop_back();
+  if (digits.empty()) return Decimal{};
+  if (decimals < 0 && decimals >= -kDigitsMax) digits.append(static_cast<std::size_t>(-decimals), '0');
+  if (digits.size() > kDigitsMax || decimals < -kDigitsMax || decimals > kDigitsMax) {
     return fail(Reason::out_of_range, '"' + escaped(text) + "\" has more than 18 digits",
                 "Use a larger unit or fewer decimals.");
   }
-  Decimal value{0, static_cast<int>(fraction.size())};
+  Decimal value{0, std::max(decimals, 0)};
   for (const char digit : digits) value.digits = value.digits * 10 + (digit - '0');
   if (text.front() == '-') value.digits = -value.digits;
   return value;
+}
+
+Result<Decimal> decimal_of(double value, bool approximate) {
+  if (!std::isfinite(value)) return fail(Reason::invalid_request, fmt::format("{} is not an amount", value));
+  const Result<Decimal> shortest = parse_decimal(fmt::format("{}", value));
+  if (shortest || !approximate || std::abs(value) > 1) return shortest;
+  return parse_decimal(fmt::format("{:.15f}", value));
 }
 
 std::string to_string(Decimal value) {

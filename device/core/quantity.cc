@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "device/core/escape.h"
 
@@ -109,7 +110,18 @@ tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale&
               in_quotes(text_of(quantity.value, quantity.unit).append(per)) + " is not a whole number of pulses" +
                   size + (per.empty() ? "" : " a second") +
                   (lowest ? "; the nearest is " : "; the nearest are " + nearest(below) + " and ") + nearest(below + 1),
-              lowest ? "Ask for this: the gateway never rounds." : "Ask for one of these: the gateway never rounds.");
+              lowest ? "Ask for this, or let it be rounded." : "Ask for one of these, or let it be rounded.");
+}
+
+// Returns the length of the number at the beginning of `text`, with its exponent: 4 for "1e-3mm".
+std::size_t end_of_number(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t end = std::min(text.find_first_not_of("+-.0123456789"), text.size());
+  if (end == text.size() || (text[end] != 'e' && text[end] != 'E')) return end;
+  std::size_t exponent = end + 1;
+  if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+  const std::size_t after = std::min(text.find_first_not_of(kDigits, exponent), text.size());
+  return after == exponent ? end : after;
 }
 
 Result<std::int64_t> whole_pulses(const Quantity& quantity, const Scale& scale, std::string_view per) {
@@ -123,9 +135,13 @@ Result<std::int64_t> whole_pulses(const Quantity& quantity, const Scale& scale, 
   const Wide remainder = *numerator % *denominator;
   const Wide below = *numerator / *denominator - (remainder < 0 ? 1 : 0);
   const Wide above = below + (remainder != 0 ? 1 : 0);
-  if (below < -kPulsesMax || above > kPulsesMax) return out_of_range(quantity, scale);
-  if (remainder != 0) return not_representable(quantity, scale, static_cast<std::int64_t>(below), per);
-  return static_cast<std::int64_t>(below);
+  const Wide twice_beyond = 2 * (*numerator - below * *denominator);
+  const bool up = twice_beyond > *denominator || (twice_beyond == *denominator && below >= 0);
+  const Wide nearest = up ? above : below;
+  const auto [least, most] = quantity.nearest ? std::pair(nearest, nearest) : std::pair(below, above);
+  if (least < -kPulsesMax || most > kPulsesMax) return out_of_range(quantity, scale);
+  if (least != most) return not_representable(quantity, scale, static_cast<std::int64_t>(below), per);
+  return static_cast<std::int64_t>(least);
 }
 
 }  // namespace
@@ -158,7 +174,7 @@ Result<Quantity> parse_quantity(std::string_view text, Unit fallback) {
     return fail(Reason::invalid_request, in_quotes(text) + " is a speed where a distance or position is wanted",
                 "Leave out the \"/s\".");
   }
-  const std::size_t end = std::min(text.find_first_not_of("+-.0123456789"), text.size());
+  const std::size_t end = end_of_number(text);
   if (end < text.size() && text[end] == ',') {
     return fail(Reason::invalid_request, in_quotes(text) + " has a comma where a decimal point is needed",
                 "Write a decimal point, and nothing between thousands, e.g. 12.5um or 1000um.");

@@ -1,5 +1,5 @@
-// Exact decimals with units. Positions are whole pulses; a value that is not a whole number of pulses is refused, never
-// rounded.
+// Exact decimals with units. Positions are whole pulses; a value that is not a whole number of pulses is refused,
+// unless rounding was requested.
 #pragma once
 
 #include <cstdint>
@@ -27,16 +27,20 @@ struct Decimal {
   friend bool operator==(const Decimal&, const Decimal&) = default;
 };
 
-// Reads an optional sign, digits, and an optional point with digits after it; no exponent, no blanks. Zeros at the end
-// of the fraction are dropped, so that equal numbers compare equal. Fails with out_of_range if the number does not fit
-// a Decimal, and with invalid_request if the text is not a number.
+// Reads an optional sign, digits, an optional point with digits after it, and an optional exponent ("e-3"); no blanks.
+// Zeros at the end of the fraction are dropped, so that equal numbers compare equal. Fails with out_of_range if the
+// number does not fit a Decimal, and with invalid_request if the text is not a number.
 Result<Decimal> parse_decimal(std::string_view text);
 std::string to_string(Decimal value);
+// Returns the shortest decimal that reads back as `value`, or with `approximate` one within 10^-15 of it. Fails with
+// invalid_request if the value is not finite, and otherwise like parse_decimal().
+Result<Decimal> decimal_of(double value, bool approximate);
 
 // A distance or a position. As a speed: the distance per second.
 struct Quantity {
   Decimal value;
   Unit unit = Unit::pulses;
+  bool nearest = false;  // to_pulses() rounds to the nearest pulse instead of refusing
 };
 
 // Read a number and its unit without blanks: "5mm", "-200um", "+1000". If there is no unit, `fallback` is used.
@@ -44,7 +48,7 @@ struct Quantity {
 Result<Quantity> parse_quantity(std::string_view text, Unit fallback);
 Result<Quantity> parse_speed(std::string_view text, Unit fallback);
 
-inline Quantity pulses(std::int64_t count) { return {{count, 0}, Unit::pulses}; }
+inline Quantity pulses(std::int64_t count) { return {.value = {count, 0}}; }
 
 // Size of one pulse (manual 10) ?:P) in nanometres; for a rotary axis, in millionths of a degree.
 struct Scale {
@@ -62,12 +66,11 @@ Result<Scale> scale_of(const Quantity& pulse);
 // Maximum number of pulses that a command carries in each direction (manual 67) M:).
 inline constexpr std::int64_t kPulsesMax = 999'999'999;
 
-// Returns the exact number of whole pulses. The scale is not used for a quantity in pulses.
-// Fails with not_representable if the quantity is not a whole number of pulses; the message names the nearest
-// representable values.
-// Fails with out_of_range beyond +-kPulsesMax.
-// Fails with unknown_unit for degrees on a linear axis and for lengths on a rotary one.
-// Fails with device_error if the scale is not above zero.
+// Returns the number of whole pulses; half a pulse is rounded away from 0, if the quantity is rounded. The scale is not
+// used for a quantity in pulses. Fails with not_representable if the quantity is not a whole number of pulses and not
+// rounded; the message names the nearest representable values. Fails with out_of_range beyond +-kPulsesMax. Fails with
+// unknown_unit for degrees on a linear axis and for lengths on a rotary one. Fails with device_error if the scale is
+// not above zero.
 Result<std::int64_t> to_pulses(const Quantity& quantity, const Scale& scale);
 
 // Converts a speed to whole pulses per second in the same way; messages speak of speeds.

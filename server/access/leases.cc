@@ -323,7 +323,9 @@ bool Leases::grant(TimePoint now) {
     }
     const Waiting next = std::move(*waiting);
     waiting_.erase(waiting);
-    next.answer(start(next, now));
+    const Lease lease = start(next, now);
+    changed(now);  // before the answer: a holder that looks at the leases sees its own
+    next.answer(lease);
     return true;
   }
   return false;

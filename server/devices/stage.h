@@ -36,6 +36,7 @@ class Stage final : public Device {
   const stage::Kind& kind() const { return kind_; }
   const stage::Profile& profile() const { return profile_; }
   Newest<stage::State>& newest_state() { return newest_state_; }
+  const Newest<stage::State>& newest_state() const { return newest_state_; }
 
   // Runs the request on the device's strand. After shutdown() `too_late` is called instead. May be called from any
   // thread.

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <string>
 
-#include "server/api/stage/targets.h"
 #include "server/limits.h"
 
 namespace axisgate::proto {
@@ -16,6 +15,16 @@ Result<Quantity> decimal(const std::string& text, Unit unit) {
   const Result<Decimal> value = parse_decimal(text);
   if (!value) return tl::unexpected(value.error());
   return Quantity{*value, unit};
+}
+
+Result<Quantity> floating(const v1::FloatingAmount& amount) {
+  if (amount.unit() < v1::UNIT_PULSES || amount.unit() > v1::UNIT_DEGREES) {
+    return fail(Reason::invalid_request, "an amount has no unit", "set one of UNIT_PULSES to UNIT_DEGREES");
+  }
+  const bool nearest = amount.rounding() == v1::ROUNDING_NEAREST;
+  const Result<Decimal> value = decimal_of(amount.value(), nearest);
+  if (!value) return tl::unexpected(value.error());
+  return Quantity{*value, static_cast<Unit>(amount.unit() - v1::UNIT_PULSES), nearest};
 }
 
 // The configuration's pulses are Decimals, and there "5.0" is a whole number too.
@@ -35,10 +44,13 @@ Result<Quantity> to_quantity(const v1::Distance& distance) {
       return decimal(distance.mm(), Unit::millimeters);
     case v1::Distance::kDegrees:
       return decimal(distance.degrees(), Unit::degrees);
+    case v1::Distance::kFloating:
+      return floating(distance.floating());
     case v1::Distance::AMOUNT_NOT_SET:
       break;
   }
-  return fail(Reason::invalid_request, "a distance has no amount", "set one of pulses, nm, um, mm and degrees");
+  return fail(Reason::invalid_request, "a distance has no amount",
+              "set one of pulses, nm, um, mm, degrees and floating");
 }
 
 Result<Quantity> to_quantity(const v1::Speed& speed) {
@@ -53,11 +65,13 @@ Result<Quantity> to_quantity(const v1::Speed& speed) {
       return decimal(speed.mm_per_s(), Unit::millimeters);
     case v1::Speed::kDegreesPerS:
       return decimal(speed.degrees_per_s(), Unit::degrees);
+    case v1::Speed::kFloating:
+      return floating(speed.floating());
     case v1::Speed::AMOUNT_NOT_SET:
       break;
   }
   return fail(Reason::invalid_request, "a speed has no amount",
-              "set one of pulses_per_s, nm_per_s, um_per_s, mm_per_s and degrees_per_s");
+              "set one of pulses_per_s, nm_per_s, um_per_s, mm_per_s, degrees_per_s and floating");
 }
 
 v1::Distance to_distance(const Quantity& quantity) {
@@ -110,8 +124,9 @@ v1::Unit to_proto(Unit unit) {
   return static_cast<v1::Unit>(static_cast<int>(unit) + 1);
 }
 
-Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
-  return api::checked_axes({numbers.begin(), numbers.end()});
+Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedPtrField<std::string>& axes,
+                               const api::AxisNames& names) {
+  return names.find_all({axes.begin(), axes.end()});
 }
 
 Result<int> to_bits(const v1::Pins& pins) {

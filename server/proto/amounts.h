@@ -12,10 +12,11 @@
 #include "device/core/quantity.h"
 #include "device/core/time.h"
 #include "device/stage/axes.h"
+#include "server/api/request/axis_names.h"
 
 namespace axisgate::proto {
 
-// Fails with invalid_request if no amount is given, or if it is not an exact decimal.
+// Fail with invalid_request if no amount is given, or if it is not a decimal or a finite number with a unit.
 Result<Quantity> to_quantity(const v1::Distance& distance);
 Result<Quantity> to_quantity(const v1::Speed& speed);
 
@@ -34,8 +35,9 @@ std::string to_text(v1::Mode mode);
 v1::CommandFormat to_format(std::string_view text);
 std::string to_text(v1::CommandFormat format);
 
-// Fails like api::checked_axes().
-Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
+// Fails like AxisNames::find_all().
+Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedPtrField<std::string>& axes,
+                               const api::AxisNames& names);
 
 // Negative if `duration` is negative or invalid; at most 200 years.
 Duration to_duration(const google::protobuf::Duration& duration);

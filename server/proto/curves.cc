@@ -16,6 +16,7 @@
 namespace axisgate::proto {
 namespace {
 
+using api::AxisNames;
 using stage::Curve;
 using stage::Rotation;
 
@@ -29,14 +30,15 @@ struct PlanePlace {
 std::string named(const std::array<int, 2>& axes) { return fmt::format("axes {} and {}", axes[0], axes[1]); }
 
 // `what` is the subject of the error messages, such as "the center".
-Result<PlanePlace> to_place(const google::protobuf::RepeatedPtrField<v1::AxisDistance>& parts, std::string_view what) {
+Result<PlanePlace> to_place(const google::protobuf::RepeatedPtrField<v1::AxisDistance>& parts, const AxisNames& names,
+                            std::string_view what) {
   if (parts.size() != 2) {
     return fail(Reason::invalid_request, fmt::format("{} of an arc has two coordinates, not {}", what, parts.size()),
                 "name both axes of the circle once; a third axis goes into `rise`");
   }
   std::array<std::pair<int, Quantity>, 2> found;
   for (int i = 0; i < 2; ++i) {
-    const Result<int> axis = api::checked_axis(parts[i].axis());
+    const Result<int> axis = names.find(parts[i].axis());
     if (!axis) return tl::unexpected(axis.error());
     const Result<Quantity> amount = to_quantity(parts[i].distance());
     if (!amount) return tl::unexpected(api::on_axis(*axis, amount.error()));
@@ -78,8 +80,8 @@ Result<std::variant<int, Decimal>> to_extent(const v1::ArcAroundCenter& around) 
               "set `turns` or `degrees`");
 }
 
-Result<Curve> to_around(const v1::ArcAroundCenter& around) {
-  const Result<PlanePlace> center = to_place(around.center(), "the center");
+Result<Curve> to_around(const v1::ArcAroundCenter& around, const AxisNames& names) {
+  const Result<PlanePlace> center = to_place(around.center(), names, "the center");
   if (!center) return tl::unexpected(center.error());
   const Result<Rotation> rotation = to_rotation(around.rotation());
   if (!rotation) return tl::unexpected(rotation.error());
@@ -88,10 +90,10 @@ Result<Curve> to_around(const v1::ArcAroundCenter& around) {
   return Curve{center->axes, Curve::Around{center->amounts, *rotation, *extent}, {}};
 }
 
-Result<Curve> to_through(const v1::ArcThroughPoint& through) {
-  const Result<PlanePlace> point = to_place(through.point(), "the point");
+Result<Curve> to_through(const v1::ArcThroughPoint& through, const AxisNames& names) {
+  const Result<PlanePlace> point = to_place(through.point(), names, "the point");
   if (!point) return tl::unexpected(point.error());
-  const Result<PlanePlace> end = to_place(through.end(), "the end");
+  const Result<PlanePlace> end = to_place(through.end(), names, "the end");
   if (!end) return tl::unexpected(end.error());
   if (point->axes != end->axes) {
     return fail(Reason::invalid_request,
@@ -101,9 +103,11 @@ Result<Curve> to_through(const v1::ArcThroughPoint& through) {
   return Curve{point->axes, Curve::Through{point->amounts, end->amounts}, {}};
 }
 
-Result<Quantity> to_rise(const v1::AxisDistance& rise) {
-  if (rise.axis() != kHelixAxis) {
-    return fail(Reason::invalid_request, fmt::format("a helix rises along axis 3, not along axis {}", rise.axis()),
+Result<Quantity> to_rise(const v1::AxisDistance& rise, const AxisNames& names) {
+  const Result<int> axis = names.find(rise.axis());
+  if (!axis) return tl::unexpected(axis.error());
+  if (*axis != kHelixAxis) {
+    return fail(Reason::invalid_request, fmt::format("a helix rises along axis 3, not along axis {}", *axis),
                 "the controller's helices are circles of axes 1 and 2 while axis 3 goes along");
   }
   const Result<Quantity> amount = to_quantity(rise.distance());
@@ -113,13 +117,13 @@ Result<Quantity> to_rise(const v1::AxisDistance& rise) {
 
 }  // namespace
 
-Result<Curve> to_curve(const v1::Arc& arc) {
+Result<Curve> to_curve(const v1::Arc& arc, const AxisNames& names) {
   if (arc.course_case() == v1::Arc::COURSE_NOT_SET) {
     return fail(Reason::invalid_request, "an arc has no course", "set `around` or `through`");
   }
-  Result<Curve> curve = arc.has_around() ? to_around(arc.around()) : to_through(arc.through());
+  Result<Curve> curve = arc.has_around() ? to_around(arc.around(), names) : to_through(arc.through(), names);
   if (!curve || !arc.has_rise()) return curve;
-  const Result<Quantity> rise = to_rise(arc.rise());
+  const Result<Quantity> rise = to_rise(arc.rise(), names);
   if (!rise) return tl::unexpected(rise.error());
   curve->rise = *rise;
   return curve;

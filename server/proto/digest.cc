@@ -41,6 +41,7 @@ void normalise(v1::Distance& distance) {
     case v1::Distance::kDegrees:
       return distance.set_degrees(times_ten(distance.degrees(), 0));
     case v1::Distance::kPulses:
+    case v1::Distance::kFloating:
     case v1::Distance::AMOUNT_NOT_SET:
       return;
   }
@@ -57,6 +58,7 @@ void normalise(v1::Speed& speed) {
     case v1::Speed::kDegreesPerS:
       return speed.set_degrees_per_s(times_ten(speed.degrees_per_s(), 0));
     case v1::Speed::kPulsesPerS:
+    case v1::Speed::kFloating:
     case v1::Speed::AMOUNT_NOT_SET:
       return;
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "server/api/request/axis_names.h"
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
 #include "server/proto/callers.h"
@@ -228,7 +229,11 @@ Result<Filter> to_filter(const server::Gateway& gateway, const v1::ListHistoryRe
   const auto outcome = to_outcome(request.outcome());
   if (!outcome) return tl::unexpected(outcome.error());
   filter.outcome = *outcome;
-  filter.axis = request.axis();
+  if (!request.axis().empty()) {
+    const Result<int> axis = api::axis_names(gateway, request.device()).find(request.axis());
+    if (!axis) return tl::unexpected(axis.error());
+    filter.axis = *axis;
+  }
   filter.text = request.text();
   filter.after = request.after();
   filter.oldest_first = request.order() == v1::ListHistoryRequest::ORDER_OLDEST_FIRST;

@@ -39,8 +39,8 @@ v1::AtLoss to_rule(AtLoss at_loss) {
 
 }  // namespace
 
-Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms) {
-  const Result<stage::AxisSet> axes = to_axes(terms.axes());
+Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms, const api::AxisNames& names) {
+  const Result<stage::AxisSet> axes = to_axes(terms.axes(), names);
   if (!axes) return tl::unexpected(axes.error());
   api::LeaseWish wish{.axes = *axes, .at_loss = to_at_loss(terms.at_loss()), .purpose = terms.purpose()};
   if (terms.has_time_to_live()) wish.time_to_live = to_duration(terms.time_to_live());

@@ -12,7 +12,7 @@
 namespace axisgate::proto {
 
 // Fails with unknown_axis or invalid_request.
-Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms);
+Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms, const api::AxisNames& names);
 
 // Includes the token, so the result is for the holder only.
 v1::Lease to_proto(const server::Lease& lease);

@@ -17,7 +17,7 @@ Result<api::PositionWish> to_wish(const v1::SavePositionRequest& request) {
   return api::PositionWish{.place = kind != v1::POSITION_KIND_COORDINATES, .keep_existing = request.keep_existing()};
 }
 
-v1::Position to_proto(const api::NamedPosition& named) {
+v1::Position to_proto(const api::NamedPosition& named, const Shown& shown) {
   const server::SavedPosition& position = named.position;
   v1::Position proto;
   proto.set_name(api::position_name(position.device, position.name));
@@ -27,6 +27,8 @@ v1::Position to_proto(const api::NamedPosition& named) {
     v1::PositionCoordinate& coordinate = *proto.add_coordinates();
     coordinate.set_axis(axis);
     coordinate.set_pulses(pulses);
+    shown.describe(axis, coordinate);
+    coordinate.set_position(shown.text(axis, pulses));
   }
   *proto.mutable_save_time() = to_proto(server::WallTime(position.saved));
   *proto.mutable_caller() = to_caller(position.who);

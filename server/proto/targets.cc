@@ -9,21 +9,21 @@
 namespace axisgate::proto {
 namespace {
 
-using api::checked_axis;
+using api::AxisNames;
 using api::on_axis;
 
-Result<stage::AxisMove> to_axis_move(int number, const v1::Distance& distance) {
-  const Result<int> axis = checked_axis(number);
+Result<stage::AxisMove> to_axis_move(const v1::AxisDistance& part, const AxisNames& names) {
+  const Result<int> axis = names.find(part.axis());
   if (!axis) return tl::unexpected(axis.error());
-  const Result<Quantity> quantity = to_quantity(distance);
+  const Result<Quantity> quantity = to_quantity(part.distance());
   if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
   return stage::AxisMove{*axis, *quantity, std::nullopt};
 }
 
-Result<std::vector<stage::AxisMove>> to_axis_moves(const v1::Segment& segment) {
+Result<std::vector<stage::AxisMove>> to_axis_moves(const v1::Segment& segment, const AxisNames& names) {
   std::vector<stage::AxisMove> moves;
   const auto add = [&](const v1::AxisDistance& part) -> Result<void> {
-    Result<stage::AxisMove> move = to_axis_move(part.axis(), part.distance());
+    Result<stage::AxisMove> move = to_axis_move(part, names);
     if (!move) return tl::unexpected(move.error());
     moves.push_back(*std::move(move));
     return {};
@@ -47,8 +47,8 @@ Result<std::vector<stage::AxisMove>> to_axis_moves(const v1::Segment& segment) {
   return fail(Reason::invalid_request, "the segment has no shape", "set `line`, `single` or `arc`");
 }
 
-Result<api::AxisTarget> to_target(const v1::AxisTarget& target) {
-  const Result<int> axis = checked_axis(target.axis());
+Result<api::AxisTarget> to_target(const v1::AxisTarget& target, const AxisNames& names) {
+  const Result<int> axis = names.find(target.axis());
   if (!axis) return tl::unexpected(axis.error());
   const Result<Quantity> distance = to_quantity(target.distance());
   if (!distance) return tl::unexpected(on_axis(*axis, distance.error()));
@@ -88,24 +88,24 @@ Result<api::Speeds> to_speeds(const v1::Profile& profile) {
   return speeds;
 }
 
-Result<api::Move> to_move(const v1::MoveRequest& request) {
+Result<api::Move> to_move(const v1::MoveRequest& request, const AxisNames& names) {
   api::Move move{.targets = {}, .relative = request.relative()};
   for (const v1::AxisTarget& target : request.targets()) {
-    Result<api::AxisTarget> one = to_target(target);
+    Result<api::AxisTarget> one = to_target(target, names);
     if (!one) return tl::unexpected(one.error());
     move.targets.push_back(*std::move(one));
   }
   return move;
 }
 
-Result<stage::Segment> to_segment(const v1::Segment& segment) {
+Result<stage::Segment> to_segment(const v1::Segment& segment, const AxisNames& names) {
   stage::Segment stretch;
   if (segment.has_arc()) {
-    Result<stage::Curve> curve = to_curve(segment.arc());
+    Result<stage::Curve> curve = to_curve(segment.arc(), names);
     if (!curve) return tl::unexpected(curve.error());
     stretch.curve = *std::move(curve);
   } else {
-    Result<std::vector<stage::AxisMove>> moves = to_axis_moves(segment);
+    Result<std::vector<stage::AxisMove>> moves = to_axis_moves(segment, names);
     if (!moves) return tl::unexpected(moves.error());
     stretch.moves = *std::move(moves);
   }
@@ -133,10 +133,11 @@ Result<stage::Segment> to_segment(const v1::Segment& segment) {
   return stretch;
 }
 
-Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request) {
-  const Result<int> axis = checked_axis(request.axis());
+Result<api::Scan> to_scan(const v1::ScanRequest& request, const AxisNames& names) {
+  const Result<int> axis = names.find(request.axis());
   if (!axis) return tl::unexpected(axis.error());
-  stage::ScanRequest scan;
+  api::Scan wanted;
+  stage::ScanRequest& scan = wanted.request;
   scan.axis = *axis;
   for (const auto& [end, place] : {std::pair(&request.from(), &scan.from), {&request.to(), &scan.to}}) {
     const Result<Quantity> quantity = to_quantity(*end);
@@ -154,18 +155,21 @@ Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request) {
     scan.acceleration_ms = *time;
   }
   switch (request.interval_case()) {
-    case v1::ScanRequest::kDrivePulses:
-      scan.interval = request.drive_pulses();
-      return scan;
+    case v1::ScanRequest::kDistance: {
+      const Result<Quantity> distance = to_quantity(request.distance());
+      if (!distance) return tl::unexpected(on_axis(*axis, distance.error()));
+      wanted.interval = *distance;
+      return wanted;
+    }
     case v1::ScanRequest::kScalePulses:
       scan.by_scale = true;
-      scan.interval = request.scale_pulses();
-      return scan;
+      wanted.interval = pulses(request.scale_pulses());
+      return wanted;
     case v1::ScanRequest::INTERVAL_NOT_SET:
       break;
   }
   return fail(Reason::invalid_request, "a scan does not say how far apart its trigger pulses are",
-              "set `drive_pulses` or `scale_pulses`");
+              "set `distance` or `scale_pulses`");
 }
 
 }  // namespace axisgate::proto

@@ -44,13 +44,6 @@ v1::MotionState to_motion_state(MotionState state) {
   return static_cast<v1::MotionState>(static_cast<int>(state) + 1);
 }
 
-// Empty if the position is unknown, or if the axis is shown in a unit that does not fit its scale.
-std::string position_text(std::optional<std::int64_t> pulses, const std::optional<Scale>& scale, Unit unit) {
-  if (!pulses || (unit != Unit::pulses && !scale)) return "";
-  const Result<Decimal> shown = from_pulses(*pulses, unit, scale.value_or(Scale{}));
-  return shown ? to_string(*shown) : "";
-}
-
 void fill_stage(int number, const stage::Profile& profile, const stage::State& state, v1::Axis& axis) {
   const auto& stage = profile.axis(number).stage;
   if (!stage) return;
@@ -140,13 +133,32 @@ void fill_stops(const std::string& device, const stage::State& state, v1::Device
   *proto.mutable_emergency_latch()->mutable_request_time() = to_proto(server::to_wall(state.emergency->at));
 }
 
+v1::Scan to_scan(const stage::ScanResult& scan, int axis, const Shown& shown) {
+  v1::Scan proto;
+  proto.set_run_from_pulses(scan.run_from);
+  proto.set_run_to_pulses(scan.run_to);
+  proto.set_run_from(shown.text(axis, scan.run_from));
+  proto.set_run_to(shown.text(axis, scan.run_to));
+  if (scan.expected) proto.set_expected_triggers(*scan.expected);
+  if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
+  if (scan.observed) proto.set_observed_triggers(*scan.observed);
+  return proto;
+}
+
+void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Moment& clock) {
+  *proto.mutable_create_time() = to_proto(clock.at(motion.created));
+  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(clock.at(motion.started));
+  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(clock.at(motion.ended));
+}
+
 // An EventFiller writes each type of fact to its field of an Event.
 struct EventFiller {
   const server::FactRecord& record;
+  const Shown shown;
   v1::Event& event;
 
   void operator()(const stage::MotionChanged& change) const {
-    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision, record.clock);
+    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision, record.clock, shown);
   }
   void operator()(const stage::CompletionSeen& seen) const {
     event.mutable_completion()->set_axis(seen.axis);
@@ -207,6 +219,8 @@ struct EventFiller {
       v1::AxisRest& rest = *proto.add_rests();
       rest.set_axis(axis);
       rest.set_position_pulses(pulses);
+      shown.describe(axis, rest);
+      rest.set_position(shown.text(axis, pulses));
     }
     if (stop.replaced_by != 0) proto.set_replaced_by(api::stop_name(record.device, stop.replaced_by));
     if (!stop.withdrawn_by.empty()) *proto.mutable_withdrawn_by() = to_caller(stop.withdrawn_by);
@@ -234,8 +248,21 @@ void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto) {
   static_assert(static_cast<int>(Target::none) + 1 == v1::Trigger::TARGET_NONE);
   static_assert(static_cast<int>(Target::scale_minus) + 1 == v1::Trigger::TARGET_SCALE_MINUS);
   proto.set_target(static_cast<v1::Trigger::Target>(static_cast<int>(trigger.target) + 1));
-  proto.set_axis(trigger.axis);
-  proto.set_interval(trigger.interval);
+  if (trigger.axis != 0) proto.set_axis(std::to_string(trigger.axis));
+  switch (trigger.target) {
+    case Target::none:
+      break;
+    case Target::drive_pulses:
+      proto.mutable_distance()->set_pulses(trigger.interval);
+      break;
+    case Target::timer:
+      *proto.mutable_period() = to_proto(std::chrono::milliseconds(10 * trigger.interval));
+      break;
+    case Target::scale_plus:
+    case Target::scale_minus:
+      proto.set_scale_pulses(trigger.interval);
+      break;
+  }
 }
 
 v1::Condition to_condition(stage::Condition condition) {
@@ -280,24 +307,8 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   return proto;
 }
 
-v1::Scan to_proto(const stage::ScanResult& scan) {
-  v1::Scan proto;
-  proto.set_run_from_pulses(scan.run_from);
-  proto.set_run_to_pulses(scan.run_to);
-  if (scan.expected) proto.set_expected_triggers(*scan.expected);
-  if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
-  if (scan.observed) proto.set_observed_triggers(*scan.observed);
-  return proto;
-}
-
-void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Moment& clock) {
-  *proto.mutable_create_time() = to_proto(clock.at(motion.created));
-  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(clock.at(motion.started));
-  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(clock.at(motion.ended));
-}
-
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
-                    const server::Moment& clock) {
+                    const server::Moment& clock, const Shown& shown) {
   v1::Motion proto;
   proto.set_name(api::motion_name(device, motion.id));
   proto.set_kind(to_motion_kind(motion.kind));
@@ -309,6 +320,9 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
     if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
     if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
     one.set_completion_seen(result.completion_seen);
+    shown.describe(result.axis, one);
+    one.set_target(shown.text(result.axis, result.target_pulses));
+    one.set_position(shown.text(result.axis, result.command_pulses));
   }
   if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
   proto.set_revision(revision);
@@ -318,12 +332,14 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
   proto.set_segments_total(motion.segments_total);
   proto.set_segments_done(motion.segments_done);
   proto.set_underruns(motion.underruns);
-  if (motion.scan) *proto.mutable_scan() = to_proto(*motion.scan);
+  if (motion.scan) {
+    *proto.mutable_scan() = to_scan(*motion.scan, motion.axes.list().front(), shown);
+  }
   return proto;
 }
 
 v1::Motion to_proto(const api::CurrentMotion& motion) {
-  v1::Motion proto = to_proto(motion.device, motion.motion, motion.revision, motion.clock);
+  v1::Motion proto = to_proto(motion.stage->name(), motion.motion, motion.revision, motion.clock, Shown(motion.stage));
   proto.set_repeated(motion.is_repeated);
   return proto;
 }
@@ -340,13 +356,13 @@ v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& pr
   return proto;
 }
 
-v1::Event to_proto(const server::FactRecord& record) {
+v1::Event to_proto(const server::FactRecord& record, const server::Stage* stage) {
   v1::Event event;
   event.set_revision(record.revision);
   *event.mutable_time() = to_proto(record.time);
   if (!record.device.empty()) event.set_device(api::device_name(record.device));
   event.set_run(record.run);
-  std::visit(EventFiller{record, event}, record.fact);
+  std::visit(EventFiller{record, Shown(stage), event}, record.fact);
   return event;
 }
 

@@ -17,6 +17,7 @@
 #include "server/devices/stage.h"
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
+#include "server/proto/shown.h"
 
 namespace axisgate::proto {
 
@@ -28,16 +29,17 @@ void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 v1::Device to_proto(const server::Stage& device, const stage::State& state);
 
 // `revision` is that of the newest fact about the motion, 0 if unknown. `clock` converts the motion's times to wall
-// time.
+// time. `shown` is that of the motion's stage.
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
-                    const server::Moment& clock);
+                    const server::Moment& clock, const Shown& shown);
 v1::Motion to_proto(const api::CurrentMotion& motion);
 
 v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
 
 v1::Condition to_condition(stage::Condition condition);
 
-v1::Event to_proto(const server::FactRecord& record);
+// `stage` is that of the record; null if the record is of another device or none.
+v1::Event to_proto(const server::FactRecord& record, const server::Stage* stage);
 
 v1::DeviceStop to_proto(const api::DeviceStop& stop);
 

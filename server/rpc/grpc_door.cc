@@ -60,7 +60,7 @@ GrpcDoor::Members::Members(server::Gateway& gateway, api::Api& api)
     : refusals(
           *gateway.metrics().registry(),
           [&gateway](Duration wait, std::function<void()> task) { gateway.timeouts().after(wait, std::move(task)); }),
-      filter(api, rpc_metrics_, refusals),
+      filter(gateway, api, rpc_metrics_, refusals),
       gateway_(gateway),
       half_close_(gateway),
       rpc_metrics_(*gateway.metrics().registry()) {

@@ -95,7 +95,7 @@ Reason ask_motions(World& world, RequestKind kind, const Call& call) {
       motions.return_to_origin(call, kDevice, stage::AxisSet(), started.answer());
       break;
     case RequestKind::scan:
-      motions.scan(call, kDevice, stage::ScanRequest(), started.answer());
+      motions.scan(call, kDevice, World::scan(), started.answer());
       break;
     case RequestKind::move_to_position:
       world.api->positions.move_to(call, kSaved, started.answer());

@@ -99,7 +99,7 @@ class MotionOfTheRunBefore : public testing::Test {
 TEST_F(MotionOfTheRunBefore, IsAnsweredWithItsOutcome) {
   const Result<CurrentMotion> motion = get(name_);
   ASSERT_TRUE(motion) << motion.error().message;
-  EXPECT_EQ(motion->device, "turn");
+  EXPECT_EQ(motion->stage->name(), "turn");
   EXPECT_EQ(motion->motion.state, MotionState::succeeded);
   EXPECT_EQ(motion->motion.who, kAnna);
   EXPECT_EQ(motion->revision, before_->revision);

@@ -139,7 +139,6 @@ TEST_F(SettingLines, SomeAreChangedAlone) {
 
 TEST_F(SettingLines, AnAxisThatThereIsOnce) {
   const auto excited = [](int axis) { return AxisChange{.axis = axis, .excited = true}; };
-  EXPECT_EQ(lines(SettingsChange{.axes = {excited(9)}}), "UNKNOWN_AXIS: there is no axis 9: a stage has at most 8");
   EXPECT_EQ(lines(SettingsChange{.axes = {excited(3)}}), "UNKNOWN_AXIS: axis 3 cannot be moved here");
   EXPECT_EQ(lines(SettingsChange{.axes = {excited(1), excited(1)}}), "INVALID_REQUEST: axis 1 is named twice");
   state_.axis(1).scale.reset();

@@ -217,6 +217,11 @@ class World {
     return access->tokens().create(name, role, now + std::chrono::hours(1), now).value_or("");
   }
 
+  static Scan scan() {
+    Scan scan{.request = {}, .interval = pulses(2)};
+    scan.request.axis = 1;
+    return scan;
+  }
   static Move way_of(std::int64_t way) { return {{{.axis = 1, .distance = pulses(way)}}, true}; }
   StartedMotion move(const Call& call, std::int64_t way) {
     Asking<StartedMotion> asking;

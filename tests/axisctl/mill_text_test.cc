@@ -19,7 +19,6 @@ namespace {
 using google::protobuf::util::TimeUtil;
 using testing::Contains;
 using testing::HasSubstr;
-using testing::Not;
 using Lines = std::vector<std::string>;
 
 v1::Job frame(int number, v1::JobState state) {
@@ -31,6 +30,7 @@ v1::Job frame(int number, v1::JobState state) {
   job.mutable_setup()->set_profile("MDX-20");
   job.mutable_setup()->set_tool("T1");
   job.set_bytes(30'000);
+  job.set_part(1);
   *job.mutable_shortest_time() = TimeUtil::SecondsToDuration(600);
   *job.mutable_longest_time() = TimeUtil::SecondsToDuration(1000);
   job.set_state(state);
@@ -203,7 +203,7 @@ TEST(MillTexts, WhereWhatWasExecutedEnds) {
   *mill.mutable_ended() = job;
   EXPECT_THAT(queue_lines(mill), Contains("job 7 (frame.rml) was aborted: " + executed_text(job)));
   mill.mutable_ended()->set_state(v1::JOB_STATE_DONE);
-  EXPECT_THAT(queue_lines(mill), Not(Contains(HasSubstr("aborted"))));
+  EXPECT_THAT(queue_lines(mill), testing::Not(Contains(HasSubstr("aborted"))));
 }
 
 TEST(MillTexts, HowAJobIsSentAndWhatRunsOn) {

@@ -62,7 +62,7 @@ TEST_F(MillWatch, AsJson) {
   options_.json = true;
   const std::string output = run("mill watch").output;
   EXPECT_THAT(output, HasSubstr("\"taken\":\"14488\""));
-  EXPECT_THAT(output, HasSubstr("\"longest\":\"3.200s\""));
+  EXPECT_THAT(output, HasSubstr("\"longest_time\":\"3.200s\""));
 }
 
 TEST_F(MillWatch, UntilAToolIsToBeChanged) {

@@ -56,7 +56,7 @@ std::string start_move(v1::StageService::Stub& stage, std::int64_t pulses) {
   request.set_device(kDevice);
   request.set_relative(true);
   v1::AxisTarget& target = *request.add_targets();
-  target.set_axis(1);
+  target.set_axis("1");
   target.mutable_distance()->set_pulses(pulses);
   grpc::ClientContext context;
   v1::MoveResponse response;

@@ -40,35 +40,36 @@ INSTANTIATE_TEST_SUITE_P(Axes, AxesBeyond, testing::Values(4, 8));
 TEST_P(AxesBeyond, AreRefusedByEveryUnaryRequest) {
   const std::string device = "device: \"devices/stage\" ";
   using Stage = v1::StageService::Stub;
-  refuses(*stage_, &Stage::Move, device + "targets { axis: AXIS distance { pulses: 5 } }");
-  refuses(*stage_, &Stage::Move, device + "targets { axis: AXIS distance { mm: \"1\" } } relative: true");
+  refuses(*stage_, &Stage::Move, device + "targets { axis: \"AXIS\" distance { pulses: 5 } }");
+  refuses(*stage_, &Stage::Move, device + "targets { axis: \"AXIS\" distance { mm: \"1\" } } relative: true");
   refuses(*stage_, &Stage::Move,
-          device + "targets { axis: 1 distance { pulses: 5 } } targets { axis: AXIS distance { pulses: 5 } }");
-  refuses(*stage_, &Stage::Move, device + "targets { axis: AXIS distance { pulses: 5 } approach { pulses: 9 } }");
-  refuses(*stage_, &Stage::Home, device + "axes: AXIS");
-  refuses(*stage_, &Stage::Home, device + "axes: 1 axes: AXIS");
-  refuses(*stage_, &Stage::ReturnToOrigin, device + "axes: AXIS");
-  refuses(*stage_, &Stage::Scan, device + "axis: AXIS from { pulses: 0 } to { pulses: 900 } drive_pulses: 9");
-  refuses(*stage_, &Stage::Stop, device + "axes: AXIS");
-  refuses(*stage_, &Stage::Stop, device + "axes: 2 axes: AXIS");
-  refuses(*devices_, &v1::DeviceService::Stub::ClearErrors, device + "axes: AXIS");
+          device + "targets { axis: \"1\" distance { pulses: 5 } } targets { axis: \"AXIS\" distance { pulses: 5 } }");
+  refuses(*stage_, &Stage::Move, device + "targets { axis: \"AXIS\" distance { pulses: 5 } approach { pulses: 9 } }");
+  refuses(*stage_, &Stage::Home, device + "axes: \"AXIS\"");
+  refuses(*stage_, &Stage::Home, device + "axes: \"1\" axes: \"AXIS\"");
+  refuses(*stage_, &Stage::ReturnToOrigin, device + "axes: \"AXIS\"");
+  refuses(*stage_, &Stage::Scan,
+          device + "axis: \"AXIS\" from { pulses: 0 } to { pulses: 900 } distance { pulses: 9 }");
+  refuses(*stage_, &Stage::Stop, device + "axes: \"AXIS\"");
+  refuses(*stage_, &Stage::Stop, device + "axes: \"2\" axes: \"AXIS\"");
+  refuses(*devices_, &v1::DeviceService::Stub::ClearErrors, device + "axes: \"AXIS\"");
   using Control = v1::ControlService::Stub;
-  refuses(*control_, &Control::AcquireLease, device + "terms { axes: AXIS }");
-  refuses(*control_, &Control::TakeOverLease, device + "terms { axes: 1 axes: AXIS }");
+  refuses(*control_, &Control::AcquireLease, device + "terms { axes: \"AXIS\" }");
+  refuses(*control_, &Control::TakeOverLease, device + "terms { axes: \"1\" axes: \"AXIS\" }");
   const auto settings = v1::SettingService::NewStub(channel_);
   using Settings = v1::SettingService::Stub;
-  refuses(*settings, &Settings::ChangeSettings, device + "settings { axes { axis: AXIS excited: true } }");
+  refuses(*settings, &Settings::ChangeSettings, device + "settings { axes { axis: \"AXIS\" excited: true } }");
   refuses(*settings, &Settings::ChangeSettings,
-          device + "settings { trigger { target: TARGET_DRIVE_PULSES axis: AXIS interval: 100 } }");
-  refuses(*settings, &Settings::SetCoordinates, device + "coordinates { axis: AXIS set_origin: true }");
+          device + "settings { trigger { target: TARGET_DRIVE_PULSES axis: \"AXIS\" distance { pulses: 100 } } }");
+  refuses(*settings, &Settings::SetCoordinates, device + "coordinates { axis: \"AXIS\" set_origin: true }");
   EXPECT_EQ(motion_count(), 0);
 }
 
 TEST_P(AxesBeyond, AreRefusedInAPath) {
   for (const std::string segment :
-       {"single { axis: AXIS distance { pulses: 5 } }",
-        "line { distances { axis: 1 distance { pulses: 5 } } distances { axis: AXIS distance { pulses: 5 } } }",
-        "arc { around { center { axis: 1 distance { pulses: 5 } } center { axis: AXIS distance { pulses: 0 } } "
+       {"single { axis: \"AXIS\" distance { pulses: 5 } }",
+        "line { distances { axis: \"1\" distance { pulses: 5 } } distances { axis: \"AXIS\" distance { pulses: 5 } } }",
+        "arc { around { center { axis: \"1\" distance { pulses: 5 } } center { axis: \"AXIS\" distance { pulses: 0 } } "
         "rotation: ROTATION_CLOCKWISE turns: 1 } }"}) {
     grpc::ClientContext context;
     limit(context);
@@ -87,7 +88,7 @@ TEST_P(AxesBeyond, AreRefusedByAJog) {
   grpc::ClientContext context;
   limit(context);
   const auto stream = stage_->Jog(&context);
-  stream->Write(request<v1::JogRequest>("device: \"devices/stage\" axes { axis: AXIS direction: DIRECTION_PLUS }"));
+  stream->Write(request<v1::JogRequest>("device: \"devices/stage\" axes { axis: \"AXIS\" direction: DIRECTION_PLUS }"));
   v1::JogResponse response;
   while (stream->Read(&response)) {
   }

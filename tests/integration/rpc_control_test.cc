@@ -17,7 +17,7 @@ class ControlTest : public RpcTest {
   static v1::AcquireLeaseRequest acquire_request(int axis) {
     v1::AcquireLeaseRequest request;
     request.set_device("devices/stage");
-    if (axis != 0) request.mutable_terms()->add_axes(axis);
+    if (axis != 0) request.mutable_terms()->add_axes(std::to_string(axis));
     return request;
   }
   grpc::Status acquire(const v1::AcquireLeaseRequest& request, v1::Lease* lease = nullptr) {

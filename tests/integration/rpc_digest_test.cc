@@ -11,7 +11,7 @@ v1::MoveRequest move() {
   request.set_device("devices/stage");
   request.mutable_context()->set_request_id("align-17");
   v1::AxisTarget& target = *request.add_targets();
-  target.set_axis(1);
+  target.set_axis("1");
   target.mutable_distance()->set_um("1");
   target.mutable_profile()->mutable_maximum()->set_mm_per_s("0.05");
   return request;

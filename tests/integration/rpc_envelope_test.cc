@@ -131,7 +131,7 @@ TEST_F(RpcEnvelope, OriginReturnComesFirst) {
   limit(context);
   v1::HomeRequest request;
   request.set_device("devices/stage");
-  request.add_axes(3);
+  request.add_axes("3");
   v1::HomeResponse response;
   ASSERT_TRUE(stage_->Home(&context, request, &response).ok());
   EXPECT_EQ(outcome(response.motion().name()).state(), v1::MOTION_STATE_SUCCEEDED);

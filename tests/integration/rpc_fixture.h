@@ -90,7 +90,7 @@ class RpcTest : public ::testing::Test {
     v1::MoveRequest request;
     request.set_device("devices/stage");
     v1::AxisTarget& target = *request.add_targets();
-    target.set_axis(axis);
+    target.set_axis(std::to_string(axis));
     target.mutable_distance()->set_mm(mm);
     return request;
   }

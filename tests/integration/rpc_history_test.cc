@@ -125,7 +125,7 @@ TEST_F(RpcHistory, WhoFollowsTheJournalBeginsAfterItsNewest) {
 
 TEST_F(RpcHistory, EachConditionCounts) {
   v1::ListHistoryRequest axis = by_hand();
-  axis.set_axis(2);
+  axis.set_axis("2");
   EXPECT_THAT(numbers(axis), ElementsAre(5, 4));
   v1::ListHistoryRequest outcome = by_hand();
   outcome.set_outcome(v1::MOTION_STATE_FAILED);
@@ -141,10 +141,10 @@ TEST_F(RpcHistory, EachConditionCounts) {
 
 TEST_F(RpcHistory, WhatIsNoConditionIsRefused) {
   v1::ListHistoryRequest axis;
-  axis.set_axis(9);
-  EXPECT_EQ(refused(axis), v1::REASON_INVALID_REQUEST);
-  axis.set_axis(-1);
-  EXPECT_EQ(refused(axis), v1::REASON_INVALID_REQUEST);
+  for (const char* unknown : {"9", "-1", "nowhere"}) {
+    axis.set_axis(unknown);
+    EXPECT_EQ(refused(axis), v1::REASON_UNKNOWN_AXIS) << unknown;
+  }
   v1::ListHistoryRequest outcome;
   outcome.set_outcome(v1::MOTION_STATE_RUNNING);
   EXPECT_EQ(refused(outcome), v1::REASON_INVALID_REQUEST);

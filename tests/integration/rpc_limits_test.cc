@@ -46,7 +46,7 @@ class WaitingCall {
     context_.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(60)));
     v1::AcquireLeaseRequest request;
     request.set_device("devices/stage");
-    request.mutable_terms()->add_axes(1);
+    request.mutable_terms()->add_axes("1");
     request.mutable_wait()->set_seconds(60);
     thread_ = std::thread([this, &control, request] {
       v1::AcquireLeaseResponse response;

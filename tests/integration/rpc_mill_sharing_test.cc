@@ -46,8 +46,8 @@ TEST_F(RpcMill, IsLeasedAsAWhole) {
   const auto control = v1::ControlService::NewStub(channel_);
   v1::AcquireLeaseRequest acquire;
   acquire.set_device(kMill);
-  acquire.mutable_terms()->add_axes(1);
-  acquire.mutable_terms()->add_axes(2);
+  acquire.mutable_terms()->add_axes("1");
+  acquire.mutable_terms()->add_axes("2");
   v1::AcquireLeaseResponse acquired;
   grpc::ClientContext first;
   limit(first);

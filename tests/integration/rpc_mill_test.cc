@@ -176,7 +176,7 @@ TEST_F(RpcMill, AStopOfAnAxisIsOfTheOnlyStage) {
   grpc::ClientContext context;
   limit(context);
   v1::StopRequest request;
-  request.add_axes(1);
+  request.add_axes("1");
   v1::StopResponse response;
   ASSERT_TRUE(stage_->Stop(&context, request, &response).ok());
   ASSERT_EQ(response.devices_size(), 1);

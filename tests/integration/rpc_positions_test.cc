@@ -307,7 +307,7 @@ TEST_F(RpcPositions, AnotherHoldsTheAxes) {
   limit(context);
   v1::AcquireLeaseRequest request;
   request.set_device("devices/stage");
-  request.mutable_terms()->add_axes(2);
+  request.mutable_terms()->add_axes("2");
   v1::AcquireLeaseResponse lease;
   ASSERT_TRUE(control_->AcquireLease(&context, request, &lease).ok());
   EXPECT_EQ(reason(save(saving("sample"))), v1::REASON_LEASE_HELD);

@@ -16,10 +16,10 @@ class RpcScan : public RpcTest {
   static v1::ScanRequest scan_request(std::int64_t from, std::int64_t to) {
     v1::ScanRequest request;
     request.set_device("devices/stage");
-    request.set_axis(1);
+    request.set_axis("1");
     request.mutable_from()->set_pulses(from);
     request.mutable_to()->set_pulses(to);
-    request.set_drive_pulses(1000);
+    request.mutable_distance()->set_pulses(1000);
     return request;
   }
 

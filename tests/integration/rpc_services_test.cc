@@ -180,7 +180,7 @@ v1::RunPathRequest header() {
 v1::RunPathRequest segment_request(const std::string& um) {
   v1::RunPathRequest part;
   part.mutable_segment()->set_relative(true);
-  part.mutable_segment()->mutable_single()->set_axis(1);
+  part.mutable_segment()->mutable_single()->set_axis("1");
   part.mutable_segment()->mutable_single()->mutable_distance()->set_um(um);
   return part;
 }

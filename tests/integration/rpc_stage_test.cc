@@ -34,7 +34,7 @@ class RpcStage : public RpcTest {
     limit(context);
     v1::HomeRequest request;
     request.set_device("devices/stage");
-    request.add_axes(axis);
+    request.add_axes(std::to_string(axis));
     request.set_validate_only(true);
     v1::HomeResponse response;
     return stage_->Home(&context, request, &response);

@@ -68,7 +68,7 @@ class UnreadableTest : public RpcTest {
   static std::string path_segment() {
     v1::RunPathRequest request;
     v1::AxisDistance& move = *request.mutable_segment()->mutable_single();
-    move.set_axis(1);
+    move.set_axis("1");
     move.mutable_distance()->set_pulses(100);
     return request.SerializeAsString();
   }
@@ -112,7 +112,7 @@ TEST_F(UnreadableTest, AJogIsStoppedAndSaysWhy) {
   v1::JogRequest first;
   first.set_device("devices/stage");
   v1::AxisJog& axis = *first.add_axes();
-  axis.set_axis(1);
+  axis.set_axis("1");
   axis.set_direction(v1::AxisJog::DIRECTION_PLUS);
   const std::string method = "/axisgate.v1.StageService/Jog";
   const grpc::Status ended = send(method, {first.SerializeAsString(), kUnreadable});

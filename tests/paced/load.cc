@@ -96,7 +96,7 @@ grpc::Status ask_own_question(const Clients::Channel& channel, std::size_t clien
 
 void add_way(v1::Line& line, int axis, std::int64_t way) {
   v1::AxisDistance& distance = *line.add_distances();
-  distance.set_axis(axis);
+  distance.set_axis(std::to_string(axis));
   distance.mutable_distance()->set_pulses(way);
 }
 

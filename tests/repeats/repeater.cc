@@ -117,7 +117,7 @@ class Caller {
     request.set_device("devices/stage");
     request.set_relative(true);
     v1::AxisTarget& target = *request.add_targets();
-    target.set_axis(axis_);
+    target.set_axis(std::to_string(axis_));
     target.mutable_distance()->set_pulses(way);
     target.mutable_profile()->mutable_maximum()->set_pulses_per_s(500'000);
     target.mutable_profile()->mutable_minimum()->set_pulses_per_s(100'000);

@@ -44,7 +44,7 @@ v1::ListHistoryRequest request_of(const Session& session) {
   if (!options.axis.empty()) {
     const v1::Device device = chosen_device(session);
     request.set_device(device.name());
-    request.set_axis(find_axis(device, options.axis).number());
+    request.set_axis(std::to_string(find_axis(device, options.axis).number()));
   }
   request.set_outcome(outcome_of(options.outcome));
   request.set_text(options.text);

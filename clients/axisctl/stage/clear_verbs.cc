@@ -31,7 +31,7 @@ int clear(const Session& session) {
   v1::ClearErrorsRequest request;
   *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
-  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
+  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(std::to_string(axis));
   const v1::ClearErrorsResponse response = session.connection.call(
       session.connection.devices, &v1::DeviceService::Stub::ClearErrors, request, kQuestionLimit);
   if (session.options.json) {

@@ -22,7 +22,7 @@ int set_origin(const Session& session) {
   v1::SetCoordinatesRequest request;
   for (const int axis : chosen_axes(session, device)) {
     v1::AxisCoordinate& coordinate = *request.add_coordinates();
-    coordinate.set_axis(axis);
+    coordinate.set_axis(std::to_string(axis));
     coordinate.set_set_origin(true);
   }
   return set_coordinates(session, request, device);
@@ -33,7 +33,7 @@ int unset_origin(const Session& session) {
   v1::SetCoordinatesRequest request;
   for (const int axis : chosen_axes(session, device)) {
     v1::AxisCoordinate& coordinate = *request.add_coordinates();
-    coordinate.set_axis(axis);
+    coordinate.set_axis(std::to_string(axis));
     coordinate.set_unset_origin(true);
   }
   return set_coordinates(session, request, device);

@@ -98,7 +98,7 @@ v1::JogRequest make_request(const Options& options, const v1::CallContext& conte
   for (const std::string& place : options.places) {
     v1::AxisJog& one = *request.add_axes() = parse_direction(device, place);
     if (options.speed.empty()) continue;
-    *one.mutable_speed() = parse_speed_for(find_axis(device, std::to_string(one.axis())), options.speed);
+    *one.mutable_speed() = parse_speed_for(find_axis(device, one.axis()), options.speed);
   }
   return request;
 }
@@ -108,7 +108,7 @@ void say_how_it_ends(const v1::Device& device, const v1::JogRequest& request) {
   if (::isatty(STDIN_FILENO) != 1) return;
   std::vector<std::string> axes;
   for (const v1::AxisJog& one : request.axes()) {
-    const std::string& name = find_axis(device, std::to_string(one.axis())).name();
+    const std::string& name = find_axis(device, one.axis()).name();
     axes.push_back(fmt::format("axis {}{} {}", one.axis(), name.empty() ? "" : fmt::format(" ({})", name),
                                one.direction() == v1::AxisJog::DIRECTION_MINUS ? '-' : '+'));
   }

@@ -16,13 +16,13 @@ v1::Motion start_on_axes(const Session& session, const v1::Device& device, Metho
   Request request;
   *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
-  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
+  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(std::to_string(axis));
   return session.connection.call(session.connection.stage, method, request, kStartLimit).motion();
 }
 
 v1::AxisTarget target(const Session& session, const v1::Device& device, const std::string& place) {
   const v1::AxisDistance parsed = parse_place(device, place);
-  const v1::Axis& axis = find_axis(device, std::to_string(parsed.axis()));
+  const v1::Axis& axis = find_axis(device, parsed.axis());
   v1::AxisTarget target;
   target.set_axis(parsed.axis());
   *target.mutable_distance() = parsed.distance();

@@ -167,7 +167,7 @@ void fill_straight(Course& course, v1::Segment& segment, Places& places) {
 const v1::Axis& lowest_axis(const v1::Device& device, const Places& places) {
   const auto lowest =
       std::min_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.axis() < b.axis(); });
-  return find_axis(device, std::to_string(lowest->axis()));
+  return find_axis(device, lowest->axis());
 }
 
 std::vector<std::string> words_of(const std::string& line) {

@@ -16,7 +16,7 @@ int scan(const Session& session) {
   v1::ScanRequest request;
   *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
-  request.set_axis(axis.number());
+  request.set_axis(std::to_string(axis.number()));
   *request.mutable_from() = parse_amount_for(axis, options.from);
   *request.mutable_to() = parse_amount_for(axis, options.to);
   if (!options.speed.empty()) *request.mutable_speed() = parse_speed_for(axis, options.speed);
@@ -24,7 +24,7 @@ int scan(const Session& session) {
   if (options.by_scale) {
     request.set_scale_pulses(options.every);
   } else {
-    request.set_drive_pulses(options.every);
+    request.mutable_distance()->set_pulses(options.every);
   }
   return start_and_wait(session, device, [&] {
     return session.connection.call(session.connection.stage, &v1::StageService::Stub::Scan, request, kStartLimit)

@@ -23,7 +23,7 @@ namespace {
 
 bool switched_on(const Session& session) { return session.options.value == "on"; }
 
-std::string label_of(const v1::Device& device, int axis) { return axis_label(find_axis(device, std::to_string(axis))); }
+std::string label_of(const v1::Device& device, const std::string& axis) { return axis_label(find_axis(device, axis)); }
 
 std::string profile_text(const v1::Profile& profile) {
   const std::string time =
@@ -74,12 +74,12 @@ int show_speeds(const Session& session, const v1::Device& device) {
   const v1::Settings settings = settings_of(session, device);
   for (const int wanted : chosen_axes(session, device)) {
     for (const v1::AxisSettings& axis : settings.axes()) {
-      if (axis.axis() != wanted) continue;
+      if (axis.axis() != std::to_string(wanted)) continue;
       const v1::Profile& profile = session.options.origin_return ? axis.origin_speeds() : axis.speeds();
       if (session.options.json) {
         print_json(axis);
       } else {
-        print_line(fmt::format("{}  {}", label_of(device, wanted), profile_text(profile)));
+        print_line(fmt::format("{}  {}", label_of(device, axis.axis()), profile_text(profile)));
       }
     }
   }
@@ -101,7 +101,7 @@ int change_axes(const Session& session, Set set) {
   v1::Settings wanted;
   for (const int number : chosen_axes(session, device)) {
     v1::AxisSettings& axis = *wanted.add_axes();
-    axis.set_axis(number);
+    axis.set_axis(std::to_string(number));
     set(axis, find_axis(device, std::to_string(number)));
   }
   return change_settings(session, device, wanted);

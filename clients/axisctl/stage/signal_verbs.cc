@@ -84,22 +84,28 @@ v1::Trigger timer(const Options& options) {
   }
   v1::Trigger trigger;
   trigger.set_target(v1::Trigger::TARGET_TIMER);
-  trigger.set_interval(timer_interval(options.interval));
+  constexpr int milliseconds_per_hundredth = 10;
+  *trigger.mutable_period() = from_milliseconds(milliseconds_per_hundredth * timer_interval(options.interval));
   return trigger;
 }
 
 v1::Trigger wanted_trigger(const Options& options, const v1::Device& device) {
   if (is_time(options.interval)) return timer(options);
   v1::Trigger trigger;
-  trigger.set_interval(pulse_interval(options.interval));
+  const std::int64_t interval = pulse_interval(options.interval);
   if (options.axis.empty()) {
-    throw usage(fmt::format("an interval of {} pulses needs an axis", trigger.interval()),
+    throw usage(fmt::format("an interval of {} pulses needs an axis", interval),
                 fmt::format("e.g. `{} --axis 1`; a time has a unit, e.g. `0.2s`", options.interval));
   }
-  trigger.set_axis(find_axis(device, options.axis).number());
+  trigger.set_axis(std::to_string(find_axis(device, options.axis).number()));
   trigger.set_target(options.scale.empty()  ? v1::Trigger::TARGET_DRIVE_PULSES
                      : options.scale == "+" ? v1::Trigger::TARGET_SCALE_PLUS
                                             : v1::Trigger::TARGET_SCALE_MINUS);
+  if (options.scale.empty()) {
+    trigger.mutable_distance()->set_pulses(interval);
+  } else {
+    trigger.set_scale_pulses(interval);
+  }
   return trigger;
 }
 

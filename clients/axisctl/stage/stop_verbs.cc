@@ -83,12 +83,12 @@ std::optional<int> axis_number(std::string_view text) {
 void set_axes(const Session& session, v1::StopRequest& request) {
   const std::vector<std::string>& axes = session.options.axes;
   if (std::ranges::all_of(axes, [](const std::string& axis) { return axis_number(axis).has_value(); })) {
-    for (const std::string& axis : axes) request.add_axes(*axis_number(axis));
+    for (const std::string& axis : axes) request.add_axes(std::to_string(*axis_number(axis)));
     return;
   }
   const v1::Device device = chosen_device(session);
   request.set_device(device.name());
-  for (const int axis : find_axes(device, axes)) request.add_axes(axis);
+  for (const int axis : find_axes(device, axes)) request.add_axes(std::to_string(axis));
 }
 
 template <class Request>

@@ -21,14 +21,14 @@ namespace axisgate::api {
 struct CurrentMotion {
   // Must be called on the device's strand.
   CurrentMotion(server::Stage& its_device, stage::Motion its_motion)
-      : device(its_device.name()),
+      : stage(&its_device),
         motion(std::move(its_motion)),
         revision(its_device.motion_revision(motion.id)),
         clock(its_device.motion_clock(motion.id)) {}
   // Takes the motion from a fact.
   CurrentMotion(const server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact,
                 const server::Moment& its_clock)
-      : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact), clock(its_clock) {}
+      : stage(&its_device), motion(std::move(its_motion)), revision(of_fact), clock(its_clock) {}
 
   // Returns the answer to a repeated request. Must be called on the device's strand.
   static CurrentMotion repeated(const server::Stage& its_device, stage::Motion its_motion) {
@@ -38,7 +38,7 @@ struct CurrentMotion {
     return current;
   }
 
-  std::string_view device;  // its name in the configuration; valid as long as the gateway
+  const server::Stage* stage;  // never null
   stage::Motion motion;
   std::uint64_t revision = 0;  // of the newest fact about the motion; 0: unknown
   bool is_repeated = false;    // answers a repeated request

@@ -70,16 +70,11 @@ void Motions::begin_home(RequestKind kind, Start start, const Call& call, std::s
       });
 }
 
-void Motions::scan(const Call& call, std::string_view device, Result<stage::ScanRequest> scan,
-                   Answer<StartedMotion> answer) const {
+void Motions::scan(const Call& call, std::string_view device, Result<Scan> scan, Answer<StartedMotion> answer) const {
   const Asked asked{RequestKind::scan, call, find_stage(gateway_, device), fault_of(scan)};
   pipeline_.run(
       asked, std::move(answer),
-      [scan = std::move(scan)](const Turn& turn) {
-        Result<stage::ScanRequest> request = scan;
-        request->context = turn.context;
-        return request;
-      },
+      [scan = std::move(scan)](const Turn& turn) { return completed(*scan, turn.controller.state(), turn.context); },
       [](const Turn& turn, const stage::ScanRequest& request) { return turn.controller.check(request); },
       [](const stage::ScanRequest& request) { return text_of(request); },
       [](const Turn& turn, stage::ScanRequest request, const Answer<StartedMotion>& respond) {

@@ -30,9 +30,7 @@ class Motions {
             Answer<StartedMotion> answer) const;
   void return_to_origin(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                         Answer<StartedMotion> answer) const;
-  // Fills in the context of `scan`.
-  void scan(const Call& call, std::string_view device, Result<stage::ScanRequest> scan,
-            Answer<StartedMotion> answer) const;
+  void scan(const Call& call, std::string_view device, Result<Scan> scan, Answer<StartedMotion> answer) const;
 
   // Fails with not_found.
   void get(const Call& call, std::string_view motion, Answer<CurrentMotion> answer) const;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <ratio>
 #include <utility>
 
 namespace axisgate::api {
@@ -88,13 +90,11 @@ void add_origin_speeds(int axis, const Speeds& speeds, const stage::AxisState& p
   change.add(stage::SetOriginSpeeds{axis, {*minimum, *maximum, all->acceleration_ms}});
 }
 
-// Returns the axis if it exists, is controllable, and amounts can be converted for it.
+// Returns the axis if it is controllable, and amounts can be converted for it.
 Result<int> usable_axis(int number, const stage::State& state) {
-  const auto axis = checked_axis(number);
-  if (!axis) return axis;
-  if (const auto good = controllable_axes(AxisSet::of(*axis), state); !good) return tl::unexpected(good.error());
-  if (state.axis(*axis).scale) return axis;
-  return fail(Reason::link_down, fmt::format("the resolution of axis {} is not known yet", *axis),
+  if (const auto good = controllable_axes(AxisSet::of(number), state); !good) return tl::unexpected(good.error());
+  if (state.axis(number).scale) return number;
+  return fail(Reason::link_down, fmt::format("the resolution of axis {} is not known yet", number),
               "try again when the device is up");
 }
 
@@ -115,12 +115,25 @@ void add_axis(const AxisChange& axis_change, const stage::State& state, Change& 
   if (axis_change.origin_speeds) add_origin_speeds(*axis, *axis_change.origin_speeds, present, change);
 }
 
-void add_trigger(const stage::Trigger& trigger, const stage::State& state, Change& change) {
-  if (trigger.axis != 0) {
-    const auto axis = checked_axis(trigger.axis);
-    const auto good = axis.and_then([&](int number) { return controllable_axes(AxisSet::of(number), state); });
-    if (!good) return change.refuse(good.error());
+Result<std::int64_t> to_hundredths(Duration period) {
+  using Hundredths = std::chrono::duration<std::int64_t, std::centi>;
+  const auto whole = std::chrono::floor<Hundredths>(period);
+  if (whole == period) return whole.count();
+  return fail(Reason::not_representable,
+              fmt::format("a period of {} is not a whole number of 0.01 s", for_people(period)));
+}
+
+void add_trigger(const TriggerWish& wish, const stage::State& state, Change& change) {
+  stage::Trigger trigger{wish.target, wish.axis, 0};
+  if (wish.axis != 0) {
+    if (const auto good = controllable_axes(AxisSet::of(wish.axis), state); !good) return change.refuse(good.error());
   }
+  const auto* period = std::get_if<Duration>(&wish.interval);
+  const Result<std::int64_t> interval =
+      period != nullptr ? to_hundredths(*period)
+                        : to_drive_pulses(std::get<Quantity>(wish.interval), std::max(wish.axis, 1), state);
+  if (!interval) return change.refuse(interval.error());
+  trigger.interval = *interval;
   change.add(stage::SetTrigger{trigger});
 }
 
@@ -175,13 +188,12 @@ Result<Lines> lines_of(const SettingsChange& wanted, const stage::Kind& kind, co
   AxisSet axes;
   for (const AxisChange& axis : wanted.axes) {
     add_axis(axis, state, change);
-    const auto number = checked_axis(axis.axis);
-    if (number && axes.has(*number)) {
+    if (axes.has(axis.axis)) {
       change.refuse({.reason = Reason::invalid_request,
-                     .message = fmt::format("axis {} is named twice", *number),
+                     .message = fmt::format("axis {} is named twice", axis.axis),
                      .hint = "name it once"});
     }
-    if (number) axes.add(*number);
+    axes.add(axis.axis);
   }
   add_controller(wanted, state, change);
   return change.lines();

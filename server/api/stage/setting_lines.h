@@ -19,11 +19,18 @@ using Lines = std::vector<std::string>;
 
 // An AxisChange changes settings of one axis. Empty members stay unchanged.
 struct AxisChange {
-  int axis = 0;  // any number; an invalid one is refused
+  int axis = 0;  // from 1
   std::optional<bool> closed_loop{}, excited{};
   std::optional<int> divisions{};
   std::optional<Speeds> speeds{}, origin_speeds{};
   bool names_given = false;  // name or scale of the axis was given, which cannot be changed
+};
+
+// A TriggerWish is a setting of the trigger output whose interval is not converted yet.
+struct TriggerWish {
+  stage::Trigger::Target target = stage::Trigger::Target::none;
+  int axis = 0;                               // 0 for timer and none
+  std::variant<Quantity, Duration> interval;  // of scale targets: in scale pulses
 };
 
 // A SettingsChange changes settings of a controller. Empty members stay unchanged.
@@ -32,7 +39,7 @@ struct SettingsChange {
   std::optional<bool> display_lit{}, beep{};
   std::optional<Duration> settling{};
   std::optional<int> outputs{};  // as bits
-  std::optional<stage::Trigger> trigger{};
+  std::optional<TriggerWish> trigger{};
   std::optional<bool> sleeping{};
   std::optional<std::string> mode{}, format{};
   bool inputs_given = false;  // inputs were given, which cannot be changed
@@ -42,7 +49,7 @@ struct SettingsChange {
 struct SetOrigin {};
 struct UnsetOrigin {};
 struct NewCoordinate {
-  int axis = 0;  // any number; an invalid one is refused
+  int axis = 0;  // from 1
   // Left out by the caller if nullopt, which is refused.
   std::optional<std::variant<Quantity, SetOrigin, UnsetOrigin>> coordinate{};
 };

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 namespace axisgate::api {
@@ -11,7 +10,7 @@ namespace {
 
 tl::unexpected<Problem> speeds_need(std::string_view what) {
   return fail(Reason::invalid_request, fmt::format("the axis's present {} is not known yet", what),
-              "give minimum, maximum and acceleration_ms, or ask again once the device's link is up");
+              "give minimum, maximum and acceleration_time, or ask again once the device's link is up");
 }
 
 // Returns the present S, lowered to the new F if it is above it, because S <= F (manual 89) D:).
@@ -39,23 +38,6 @@ Result<stage::AxisMove> completed_target(const AxisTarget& target, const stage::
 }
 
 }  // namespace
-
-Result<int> checked_axis(int number) {
-  if (number >= 1 && number <= stage::kAxesMax) return number;
-  return fail(Reason::unknown_axis,
-              fmt::format("there is no axis {}: a stage has at most {}", number, stage::kAxesMax));
-}
-
-Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers) {
-  stage::AxisSet axes;
-  for (const int number : numbers) {
-    const Result<int> axis = checked_axis(number);
-    if (!axis) return tl::unexpected(axis.error());
-    if (axes.has(*axis)) return fail(Reason::invalid_request, fmt::format("axis {} is named twice", number));
-    axes.add(*axis);
-  }
-  return axes;
-}
 
 Result<void> check_axes(stage::AxisSet named, const server::Device& device) {
   if (device.whole().contains(named)) return {};
@@ -93,6 +75,26 @@ Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisSta
   if (!speeds.acceleration_ms && !axis.acceleration_ms) return speeds_need("acceleration time R");
   all.acceleration_ms = speeds.acceleration_ms ? *speeds.acceleration_ms : *axis.acceleration_ms;
   return all;
+}
+
+Result<std::int64_t> to_drive_pulses(const Quantity& distance, int axis, const stage::State& state) {
+  const std::optional<Scale>& scale = state.axis(axis).scale;
+  if (distance.unit != Unit::pulses && !scale) {
+    return fail(Reason::link_down, fmt::format("the resolution of axis {} is not known yet", axis),
+                "try again when the device is up");
+  }
+  const Result<std::int64_t> pulses = to_pulses(distance, scale.value_or(Scale{}));
+  if (!pulses) return tl::unexpected(on_axis(axis, pulses.error()));
+  return pulses;
+}
+
+Result<stage::ScanRequest> completed(const Scan& scan, const stage::State& state, use::RequestContext context) {
+  const Result<std::int64_t> interval = to_drive_pulses(scan.interval, scan.request.axis, state);
+  if (!interval) return tl::unexpected(interval.error());
+  stage::ScanRequest request = scan.request;
+  request.interval = *interval;
+  request.context = std::move(context);
+  return request;
 }
 
 Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, use::RequestContext context) {

@@ -31,12 +31,14 @@ struct Move {
   bool relative = false;
 };
 
-// Checks for 1 to kAxesMax. Fails with unknown_axis.
-Result<int> checked_axis(int number);
+// A Scan is a scan whose interval is not converted to pulses yet.
+struct Scan {
+  stage::ScanRequest request;  // without interval and context
+  Quantity interval;           // with request.by_scale: in scale pulses
+};
+
 // Fails with unknown_axis if `device`, a stage, has fewer axes than named.
 Result<void> check_axes(stage::AxisSet named, const server::Device& device);
-// Checks each axis like checked_axis(). Fails with invalid_request if an axis is named twice. No axes stay no axes.
-Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers);
 
 // Returns the problem with its axis: "axis 1: ...".
 Problem on_axis(int axis, Problem problem);
@@ -47,6 +49,11 @@ Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::Stat
 
 // Fails with invalid_request if a value is left out and the axis's present value is unknown.
 Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisState& axis);
+
+// Converts the interval. Fails with link_down if the resolution of the axis is unknown, and like to_pulses().
+Result<stage::ScanRequest> completed(const Scan& scan, const stage::State& state, use::RequestContext context);
+// Returns the distance in drive pulses of the axis. Fails like the function above.
+Result<std::int64_t> to_drive_pulses(const Quantity& distance, int axis, const stage::State& state);
 
 // Completes the move with the device's present speeds. Fails with invalid_request.
 Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, use::RequestContext context);

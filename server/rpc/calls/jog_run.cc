@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "server/api/stage/targets.h"
 #include "server/proto/amounts.h"
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
@@ -21,10 +20,10 @@ std::optional<int> to_direction(v1::AxisJog::Direction direction) {
   return std::nullopt;
 }
 
-Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request) {
+Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request, const api::AxisNames& names) {
   std::vector<api::JogAxis> axes;
   for (const v1::AxisJog& one : request.axes()) {
-    const Result<int> axis = api::checked_axis(one.axis());
+    const Result<int> axis = names.find(one.axis());
     if (!axis) return tl::unexpected(axis.error());
     axes.push_back({.axis = *axis, .direction = to_direction(one.direction())});
     if (!one.has_speed()) continue;
@@ -38,21 +37,23 @@ Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request) {
 }  // namespace
 
 JogRun* JogRun::start(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context,
-                      const HalfClose& half_close) {
-  const auto run = std::make_shared<JogRun>(std::move(jog), context, half_close);
+                      const HalfClose& half_close, const server::Gateway& gateway) {
+  const auto run = std::make_shared<JogRun>(std::move(jog), context, half_close, gateway);
   run->serve();
   run->StartRead(run->incoming_.marked());
   return run.get();
 }
 
-JogRun::JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context, const HalfClose& half_close)
+JogRun::JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context, const HalfClose& half_close,
+               const server::Gateway& gateway)
     : SubscribedStream(jog,
                        [](v1::JogResponse& response, const api::CurrentMotion& motion) {
                          *response.mutable_motion() = proto::to_proto(motion);
                        }),
       jog_(std::move(jog)),
       context_(context),
-      half_close_(half_close) {}
+      half_close_(half_close),
+      gateway_(gateway) {}
 
 void JogRun::OnReadDone(bool ok) {
   if (!ok && incoming_.unreadable()) return jog_->refuse_part(not_readable(kJogMethod));
@@ -61,7 +62,8 @@ void JogRun::OnReadDone(bool ok) {
 }
 
 bool JogRun::take() {
-  const auto axes = to_jog_axes(*incoming_);
+  if (!started_) names_ = api::axis_names(gateway_, incoming_->device());
+  const auto axes = to_jog_axes(*incoming_, names_);
   if (std::exchange(started_, true)) return jog_->renew(axes);
   api::Call call = to_call(context_, incoming_->context());
   call.digest = proto::digest_of(*incoming_);

@@ -25,16 +25,20 @@ void fill_path_step(v1::RunPathResponse& response, const api::PathStep& step) {
 }  // namespace
 
 PathRun* PathRun::start(std::shared_ptr<api::Path> path, const grpc::CallbackServerContext& context,
-                        const HalfClose& half_close) {
-  const auto run = std::make_shared<PathRun>(std::move(path), context, half_close);
+                        const HalfClose& half_close, const server::Gateway& gateway) {
+  const auto run = std::make_shared<PathRun>(std::move(path), context, half_close, gateway);
   run->serve();
   run->StartRead(run->incoming_.marked());
   return run.get();
 }
 
 PathRun::PathRun(std::shared_ptr<api::Path> path, const grpc::CallbackServerContext& context,
-                 const HalfClose& half_close)
-    : SubscribedStream(path, fill_path_step), path_(std::move(path)), context_(context), half_close_(half_close) {}
+                 const HalfClose& half_close, const server::Gateway& gateway)
+    : SubscribedStream(path, fill_path_step),
+      path_(std::move(path)),
+      context_(context),
+      half_close_(half_close),
+      gateway_(gateway) {}
 
 void PathRun::OnReadDone(bool ok) {
   if (!ok && incoming_.unreadable()) {
@@ -48,11 +52,12 @@ void PathRun::OnReadDone(bool ok) {
 bool PathRun::take() {
   if (incoming_->has_header()) {
     digest_ = proto::digest_of(incoming_->header());
+    names_ = api::axis_names(gateway_, incoming_->header().device());
     return path_->start(to_checked_call(context_, incoming_->header()), incoming_->header().device());
   }
   if (incoming_->has_segment()) {
     digest_ = proto::digest_of(digest_, incoming_->segment());
-    return path_->add(proto::to_segment(incoming_->segment()));
+    return path_->add(proto::to_segment(incoming_->segment(), names_));
   }
   return path_->refuse_part({.reason = Reason::invalid_request, .message = "a part of the path is empty"});
 }

@@ -12,8 +12,8 @@ namespace axisgate::rpc {
 class CallFilter final : public front::CallFilter {
  public:
   // The referenced objects must outlive this one.
-  CallFilter(api::Api& api, RpcMetrics& metrics, Refusals& refusals)
-      : api_(api), metrics_(metrics), refusals_(refusals), answers_(api) {}
+  CallFilter(const server::Gateway& gateway, api::Api& api, RpcMetrics& metrics, Refusals& refusals)
+      : api_(api), metrics_(metrics), refusals_(refusals), answers_(gateway, api) {}
 
   front::Decision decide(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
   front::Reply no_room() override;

@@ -91,7 +91,8 @@ std::unique_ptr<Answer> OwnAnswers::stop(const v1::StopRequest& request, Asked a
   const api::Call call = call_of_stop(*asked.served, asked.deadline, request);
   return one_answer<std::vector<api::DeviceStop>>(
       asked.served, asked.wake, reports_in<v1::StopResponse>, [&](api::Answer<std::vector<api::DeviceStop>> answer) {
-        api_.stops.stop(call, request.device(), proto::to_axes(request.axes()), std::move(answer));
+        api_.stops.stop(call, request.device(),
+                        proto::to_axes(request.axes(), api::axis_names(gateway_, request.device())), std::move(answer));
       });
 }
 

@@ -22,8 +22,8 @@ namespace axisgate::rpc {
 // Thread safe.
 class OwnAnswers {
  public:
-  // `api` must outlive this object.
-  explicit OwnAnswers(const api::Api& api) : api_(api) {}
+  // The referenced objects must outlive this one.
+  OwnAnswers(const server::Gateway& gateway, const api::Api& api) : gateway_(gateway), api_(api) {}
 
   // One request: its record, its deadline, and the function to call when the answer is there.
   struct Asked {
@@ -58,6 +58,7 @@ class OwnAnswers {
   std::unique_ptr<front::Answer> get_device(const v1::GetDeviceRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> execute(const v1::ExecuteRequest& request, Asked asked) const;
 
+  const server::Gateway& gateway_;
   const api::Api& api_;
 };
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "axisgate/v1/control.grpc.pb.h"
+#include "server/api/request/axis_names.h"
 #include "server/api/sharing/leases.h"
 #include "server/proto/amounts.h"
 #include "server/proto/lease_to_proto.h"
@@ -39,13 +40,14 @@ class WaitingCall final : public api::LeaseSeeker {
 
 class ControlService final : public v1::ControlService::CallbackService {
  public:
-  // `leases` must outlive this object.
-  explicit ControlService(const api::Leases& leases) : leases_(leases) {}
+  // The referenced objects must outlive this one.
+  ControlService(const server::Gateway& gateway, const api::Leases& leases) : gateway_(gateway), leases_(leases) {}
 
   grpc::ServerUnaryReactor* AcquireLease(grpc::CallbackServerContext* context, const v1::AcquireLeaseRequest* request,
                                          v1::AcquireLeaseResponse* response) override {
     const auto call = UnaryCall<v1::AcquireLeaseResponse>::start(response);
-    leases_.acquire(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
+    leases_.acquire(to_checked_call(*context, *request), request->device(),
+                    proto::to_wish(request->terms(), api::axis_names(gateway_, request->device())),
                     proto::to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
     return call.get();
   }
@@ -75,7 +77,8 @@ class ControlService final : public v1::ControlService::CallbackService {
   grpc::ServerUnaryReactor* TakeOverLease(grpc::CallbackServerContext* context, const v1::TakeOverLeaseRequest* request,
                                           v1::TakeOverLeaseResponse* response) override {
     const auto call = UnaryCall<v1::TakeOverLeaseResponse>::start(response);
-    leases_.take_over(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
+    leases_.take_over(to_checked_call(*context, *request), request->device(),
+                      proto::to_wish(request->terms(), api::axis_names(gateway_, request->device())),
                       std::make_shared<WaitingCall<v1::TakeOverLeaseResponse>>(call));
     return call.get();
   }
@@ -99,13 +102,14 @@ class ControlService final : public v1::ControlService::CallbackService {
   }
 
  private:
+  const server::Gateway& gateway_;
   const api::Leases& leases_;
 };
 
 }  // namespace
 
 std::unique_ptr<grpc::Service> control_service(const ServiceParts& parts) {
-  return std::make_unique<ControlService>(parts.api.leases);
+  return std::make_unique<ControlService>(parts.gateway, parts.api.leases);
 }
 
 }  // namespace axisgate::rpc

@@ -1,6 +1,7 @@
 // DeviceService: the list of devices and their states.
 #include "axisgate/v1/device.grpc.pb.h"
 #include "server/api/looking/devices.h"
+#include "server/api/request/axis_names.h"
 #include "server/proto/amounts.h"
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
@@ -13,8 +14,8 @@ namespace {
 
 class DeviceService final : public v1::DeviceService::CallbackService {
  public:
-  // `devices` must outlive this object.
-  explicit DeviceService(const api::Devices& devices) : devices_(devices) {}
+  // The referenced objects must outlive this one.
+  DeviceService(const server::Gateway& gateway, const api::Devices& devices) : gateway_(gateway), devices_(devices) {}
 
   // The front answers ListDevices and GetDevice (own_answers.h).
   grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
@@ -29,7 +30,8 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,
                                         v1::ClearErrorsResponse* response) override {
     const auto call = UnaryCall<v1::ClearErrorsResponse>::start(response);
-    devices_.clear_errors(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
+    devices_.clear_errors(to_checked_call(*context, *request), request->device(),
+                          proto::to_axes(request->axes(), api::axis_names(gateway_, request->device())),
                           answering(call));
     return call.get();
   }
@@ -42,13 +44,14 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   }
 
  private:
+  const server::Gateway& gateway_;
   const api::Devices& devices_;
 };
 
 }  // namespace
 
 std::unique_ptr<grpc::Service> device_service(const ServiceParts& parts) {
-  return std::make_unique<DeviceService>(parts.api.devices);
+  return std::make_unique<DeviceService>(parts.gateway, parts.api.devices);
 }
 
 }  // namespace axisgate::rpc

@@ -15,16 +15,17 @@ namespace {
 
 class PositionService final : public v1::PositionService::CallbackService {
  public:
-  // `positions` must outlive this object.
-  explicit PositionService(const api::Positions& positions) : positions_(positions) {}
+  // The referenced objects must outlive this one.
+  PositionService(const server::Gateway& gateway, const api::Positions& positions)
+      : gateway_(gateway), positions_(positions) {}
 
   grpc::ServerUnaryReactor* SavePosition(grpc::CallbackServerContext* context, const v1::SavePositionRequest* request,
                                          v1::SavePositionResponse* response) override {
     using Saved = std::optional<api::NamedPosition>;
     const auto call = UnaryCall<v1::SavePositionResponse>::start(response);
     positions_.save(to_checked_call(*context, *request), request->position(), proto::to_wish(*request),
-                    answering<Saved>(call, [](v1::SavePositionResponse& answer, const Saved& saved) {
-                      if (saved) *answer.mutable_position() = proto::to_proto(*saved);
+                    answering<Saved>(call, [this](v1::SavePositionResponse& answer, const Saved& saved) {
+                      if (saved) *answer.mutable_position() = to_proto(*saved);
                     }));
     return call.get();
   }
@@ -34,8 +35,8 @@ class PositionService final : public v1::PositionService::CallbackService {
     using Positions = std::vector<api::NamedPosition>;
     const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
     positions_.list(to_call(*context), request->device(),
-                    answering<Positions>(call, [](v1::ListPositionsResponse& answer, const Positions& positions) {
-                      for (const auto& position : positions) *answer.add_positions() = proto::to_proto(position);
+                    answering<Positions>(call, [this](v1::ListPositionsResponse& answer, const Positions& positions) {
+                      for (const auto& position : positions) *answer.add_positions() = to_proto(position);
                     }));
     return call.get();
   }
@@ -61,13 +62,18 @@ class PositionService final : public v1::PositionService::CallbackService {
   }
 
  private:
+  v1::Position to_proto(const api::NamedPosition& named) const {
+    return proto::to_proto(named, proto::Shown(gateway_.find_stage(named.position.device)));
+  }
+
+  const server::Gateway& gateway_;
   const api::Positions& positions_;
 };
 
 }  // namespace
 
 std::unique_ptr<grpc::Service> position_service(const ServiceParts& parts) {
-  return std::make_unique<PositionService>(parts.api.positions);
+  return std::make_unique<PositionService>(parts.gateway, parts.api.positions);
 }
 
 }  // namespace axisgate::rpc

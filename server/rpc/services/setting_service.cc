@@ -1,5 +1,6 @@
 // SettingService: settings of a controller other than its motion.
 #include "axisgate/v1/settings.grpc.pb.h"
+#include "server/api/request/axis_names.h"
 #include "server/api/stage/settings.h"
 #include "server/proto/settings.h"
 #include "server/rpc/calls/call.h"
@@ -11,8 +12,9 @@ namespace {
 
 class SettingService final : public v1::SettingService::CallbackService {
  public:
-  // `settings` must outlive this object.
-  explicit SettingService(const api::Settings& settings) : settings_(settings) {}
+  // The referenced objects must outlive this one.
+  SettingService(const server::Gateway& gateway, const api::Settings& settings)
+      : gateway_(gateway), settings_(settings) {}
 
   grpc::ServerUnaryReactor* GetSettings(grpc::CallbackServerContext* context, const v1::GetSettingsRequest* request,
                                         v1::GetSettingsResponse* response) override {
@@ -29,7 +31,8 @@ class SettingService final : public v1::SettingService::CallbackService {
                                            const v1::ChangeSettingsRequest* request,
                                            v1::ChangeSettingsResponse* response) override {
     const auto call = UnaryCall<v1::ChangeSettingsResponse>::start(response);
-    settings_.change(to_checked_call(*context, *request), request->device(), proto::to_change(request->settings()),
+    settings_.change(to_checked_call(*context, *request), request->device(),
+                     proto::to_change(request->settings(), api::axis_names(gateway_, request->device())),
                      answering(call));
     return call.get();
   }
@@ -38,7 +41,8 @@ class SettingService final : public v1::SettingService::CallbackService {
                                            const v1::SetCoordinatesRequest* request,
                                            v1::SetCoordinatesResponse* response) override {
     const auto call = UnaryCall<v1::SetCoordinatesResponse>::start(response);
-    settings_.set_coordinates(to_checked_call(*context, *request), request->device(), proto::to_coordinates(*request),
+    settings_.set_coordinates(to_checked_call(*context, *request), request->device(),
+                              proto::to_coordinates(*request, api::axis_names(gateway_, request->device())),
                               answering(call));
     return call.get();
   }
@@ -58,13 +62,14 @@ class SettingService final : public v1::SettingService::CallbackService {
   }
 
  private:
+  const server::Gateway& gateway_;
   const api::Settings& settings_;
 };
 
 }  // namespace
 
 std::unique_ptr<grpc::Service> setting_service(const ServiceParts& parts) {
-  return std::make_unique<SettingService>(parts.api.settings);
+  return std::make_unique<SettingService>(parts.gateway, parts.api.settings);
 }
 
 }  // namespace axisgate::rpc

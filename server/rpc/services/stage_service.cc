@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "axisgate/v1/stage.grpc.pb.h"
+#include "server/api/request/axis_names.h"
 #include "server/api/stage/jogs.h"
 #include "server/api/stage/motions.h"
 #include "server/api/stage/paths.h"
@@ -29,13 +30,14 @@ api::Answer<api::StartedMotion> answering_with_motion(std::shared_ptr<UnaryCall<
 class StageService final : public v1::StageService::CallbackService {
  public:
   // The referenced objects must outlive this one.
-  StageService(const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs, const HalfClose& half_close)
-      : motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
+  StageService(const server::Gateway& gateway, const api::Motions& motions, const api::Paths& paths,
+               const api::Jogs& jogs, const HalfClose& half_close)
+      : gateway_(gateway), motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
 
   grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
                                  v1::MoveResponse* response) override {
     const auto call = UnaryCall<v1::MoveResponse>::start(response);
-    motions_.move(to_checked_call(*context, *request), request->device(), proto::to_move(*request),
+    motions_.move(to_checked_call(*context, *request), request->device(), proto::to_move(*request, names_of(*request)),
                   answering_with_motion(call));
     return call.get();
   }
@@ -43,8 +45,8 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerUnaryReactor* Home(grpc::CallbackServerContext* context, const v1::HomeRequest* request,
                                  v1::HomeResponse* response) override {
     const auto call = UnaryCall<v1::HomeResponse>::start(response);
-    motions_.home(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
-                  answering_with_motion(call));
+    motions_.home(to_checked_call(*context, *request), request->device(),
+                  proto::to_axes(request->axes(), names_of(*request)), answering_with_motion(call));
     return call.get();
   }
 
@@ -52,8 +54,8 @@ class StageService final : public v1::StageService::CallbackService {
                                            const v1::ReturnToOriginRequest* request,
                                            v1::ReturnToOriginResponse* response) override {
     const auto call = UnaryCall<v1::ReturnToOriginResponse>::start(response);
-    motions_.return_to_origin(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
-                              answering_with_motion(call));
+    motions_.return_to_origin(to_checked_call(*context, *request), request->device(),
+                              proto::to_axes(request->axes(), names_of(*request)), answering_with_motion(call));
     return call.get();
   }
 
@@ -61,13 +63,13 @@ class StageService final : public v1::StageService::CallbackService {
       grpc::CallbackServerContext* context) override {
     auto path = paths_.open(credential_of(*context));
     if (!path) return new EndedStream<grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>>(path.error());
-    return PathRun::start(*std::move(path), *context, half_close_);
+    return PathRun::start(*std::move(path), *context, half_close_, gateway_);
   }
 
   grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
                                  v1::ScanResponse* response) override {
     const auto call = UnaryCall<v1::ScanResponse>::start(response);
-    motions_.scan(to_checked_call(*context, *request), request->device(), proto::to_scan(*request),
+    motions_.scan(to_checked_call(*context, *request), request->device(), proto::to_scan(*request, names_of(*request)),
                   answering_with_motion(call));
     return call.get();
   }
@@ -75,7 +77,7 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* Jog(grpc::CallbackServerContext* context) override {
     auto jog = jogs_.open(credential_of(*context));
     if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
-    return JogRun::start(*std::move(jog), *context, half_close_);
+    return JogRun::start(*std::move(jog), *context, half_close_, gateway_);
   }
 
   grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const v1::GetMotionRequest* request,
@@ -116,6 +118,12 @@ class StageService final : public v1::StageService::CallbackService {
   }
 
  private:
+  template <class Request>
+  api::AxisNames names_of(const Request& request) const {
+    return api::axis_names(gateway_, request.device());
+  }
+
+  const server::Gateway& gateway_;
   const api::Motions& motions_;
   const api::Paths& paths_;
   const api::Jogs& jogs_;
@@ -125,7 +133,8 @@ class StageService final : public v1::StageService::CallbackService {
 }  // namespace
 
 std::unique_ptr<grpc::Service> stage_service(const ServiceParts& parts) {
-  return std::make_unique<StageService>(parts.api.motions, parts.api.paths, parts.api.jogs, parts.half_close);
+  return std::make_unique<StageService>(parts.gateway, parts.api.motions, parts.api.paths, parts.api.jogs,
+                                        parts.half_close);
 }
 
 }  // namespace axisgate::rpc

@@ -65,10 +65,40 @@ TEST(Decimal, Takes18Digits) {
 }
 
 TEST(Decimal, RefusesWhatIsNoNumber) {
-  for (const char* text :
-       {"", "+", "-", ".", "5.", "1.2.3", "+-5", "1e3", "0x10", " 5", "5 ", "1,000", "five", "inf"}) {
+  for (const char* text : {"", "+", "-", ".", "5.", "1.2.3", "+-5", "1e", "e3", "1e+", "1e1.5", "1e1000", "0x10", " 5",
+                           "5 ", "1,000", "five", "inf"}) {
     EXPECT_EQ(read_back(text), "INVALID_REQUEST") << '"' << text << '"';
   }
+}
+
+TEST(Decimal, TakesAnExponent) {
+  EXPECT_EQ(read_back("1e3"), "1000");
+  EXPECT_EQ(read_back("1e-05"), "0.00001");  // as Python writes 1e-5
+  EXPECT_EQ(read_back("-1.50E+2"), "-150");
+  EXPECT_EQ(read_back("2.5e-3"), "0.0025");
+  EXPECT_EQ(read_back("0e999"), "0");
+  EXPECT_EQ(read_back("1e17"), "100000000000000000");
+  EXPECT_EQ(read_back("1e18"), "OUT_OF_RANGE");
+  EXPECT_EQ(read_back("1e-18"), "0.000000000000000001");
+  EXPECT_EQ(read_back("1e-19"), "OUT_OF_RANGE");
+}
+
+std::string of(double value, bool approximate) {
+  const Result<Decimal> decimal = decimal_of(value, approximate);
+  return decimal ? to_string(*decimal) : std::string(name(decimal.error().reason));
+}
+
+TEST(Decimal, OfADoubleIsTheShortestThatReadsBackAsIt) {
+  EXPECT_EQ(of(1.5, false), "1.5");
+  EXPECT_EQ(of(0.1 + 0.2, false), "0.30000000000000004");
+  EXPECT_EQ(of(1e-5, false), "0.00001");
+  EXPECT_EQ(of(-0.0, false), "0");
+  EXPECT_EQ(of(1e300, true), "OUT_OF_RANGE");
+  EXPECT_EQ(of(1.2345678901234567e-9, false), "OUT_OF_RANGE");
+  EXPECT_EQ(of(1.2345678901234567e-9, true), "0.000000001234568");
+  EXPECT_EQ(of(5e-324, true), "0");
+  EXPECT_EQ(of(std::numeric_limits<double>::infinity(), true), "INVALID_REQUEST");
+  EXPECT_EQ(of(std::numeric_limits<double>::quiet_NaN(), true), "INVALID_REQUEST");
 }
 
 TEST(Decimal, SaysWhatIsWrongWithoutRepeatingControlBytes) {
@@ -125,11 +155,18 @@ TEST(Quantity, TakesTheFallbackWhenItHasNoUnit) {
   EXPECT_EQ(quantity->unit, Unit::millimeters);
 }
 
+TEST(Quantity, TakesAnExponentBeforeTheUnit) {
+  const auto quantity = parse_quantity("-2.5e-3mm", Unit::pulses);
+  ASSERT_TRUE(quantity);
+  EXPECT_EQ(quantity->value, (Decimal{-25, 4}));
+  EXPECT_EQ(quantity->unit, Unit::millimeters);
+}
+
 TEST(Quantity, RefusesWhatItCannotRead) {
   for (const char* text : {"", "mm", "five", "--5mm", "5.mm", "mm5"}) {
     EXPECT_EQ(reason_of(parse_quantity(text, Unit::pulses)), Reason::invalid_request) << '"' << text << '"';
   }
-  for (const char* text : {"5parsec", "1e3", "5 mm", "5mm ", "5mm\r", "5mm/min"}) {
+  for (const char* text : {"5parsec", "1e", "1emm", "5 mm", "5mm ", "5mm\r", "5mm/min"}) {
     EXPECT_EQ(reason_of(parse_quantity(text, Unit::pulses)), Reason::unknown_unit) << '"' << text << '"';
   }
   EXPECT_EQ(reason_of(parse_quantity("1000000000000000000mm", Unit::pulses)), Reason::out_of_range);
@@ -208,7 +245,22 @@ TEST(ToPulses, SpeedsAreSpokenOfAsSpeeds) {
   ASSERT_FALSE(slow);
   EXPECT_EQ(slow.error().message,
             "\"0.005um/s\" is not a whole number of pulses of 10 nm a second; the nearest is 0.01um/s");
-  EXPECT_EQ(slow.error().hint, "Ask for this: the gateway never rounds.");
+  EXPECT_EQ(slow.error().hint, "Ask for this, or let it be rounded.");
+}
+
+TEST(ToPulses, RoundsToTheNearestOnlyWhenAsked) {
+  const auto rounded = [](std::int64_t nanometers) {
+    return to_pulses({.value = {nanometers, 0}, .unit = Unit::nanometers, .nearest = true}, k10Nanometers);
+  };
+  EXPECT_EQ(rounded(24), 2);
+  EXPECT_EQ(rounded(25), 3);
+  EXPECT_EQ(rounded(-24), -2);
+  EXPECT_EQ(rounded(-25), -3);
+  EXPECT_EQ(rounded(-26), -3);
+  EXPECT_EQ(rounded(30), 3);
+  EXPECT_EQ(rounded(-4), 0);
+  EXPECT_EQ(rounded(9'999'999'994), 999'999'999);
+  EXPECT_FALSE(rounded(9'999'999'996));
 }
 
 // Manual 67) M:, y: 0 to 999,999,999 with a sign.
