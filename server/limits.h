@@ -14,6 +14,8 @@ namespace axisgate::server {
 inline constexpr Duration kMotionStartLimit = std::chrono::seconds(5);
 // Time limit of any other request, if its caller sets none; also of Execute.
 inline constexpr Duration kRequestLimit = std::chrono::seconds(20);
+// Longest wait of a WaitMotion.
+inline constexpr Duration kMotionWaitMax = std::chrono::hours(1);
 // Longest time limit of an Execute.
 inline constexpr Duration kExecuteLimitMax = std::chrono::minutes(10);
 // Extra time for the controller to report a more exact problem than a timeout.

@@ -66,6 +66,12 @@ Result<api::AxisTarget> to_target(const v1::AxisTarget& target, const AxisNames&
   return one;
 }
 
+std::optional<int> to_direction(v1::AxisJog::Direction direction) {
+  if (direction == v1::AxisJog::DIRECTION_PLUS) return 1;
+  if (direction == v1::AxisJog::DIRECTION_MINUS) return -1;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<api::Speeds> to_speeds(const v1::Profile& profile) {
@@ -170,6 +176,21 @@ Result<api::Scan> to_scan(const v1::ScanRequest& request, const AxisNames& names
   }
   return fail(Reason::invalid_request, "a scan does not say how far apart its trigger pulses are",
               "set `distance` or `scale_pulses`");
+}
+
+Result<std::vector<api::JogAxis>> to_jog_axes(const google::protobuf::RepeatedPtrField<v1::AxisJog>& jogs,
+                                              const AxisNames& names) {
+  std::vector<api::JogAxis> axes;
+  for (const v1::AxisJog& one : jogs) {
+    const Result<int> axis = names.find(one.axis());
+    if (!axis) return tl::unexpected(axis.error());
+    axes.push_back({.axis = *axis, .direction = to_direction(one.direction())});
+    if (!one.has_speed()) continue;
+    const Result<Quantity> speed = to_quantity(one.speed());
+    if (!speed) return tl::unexpected(speed.error());
+    axes.back().speed = *speed;
+  }
+  return axes;
 }
 
 }  // namespace axisgate::proto

@@ -46,6 +46,7 @@ const std::vector<Row> kRows = {
     {Kind::execute, "execute", Role::operator_, "stream", Asks::nothing, Reason::not_allowed, Reason::not_allowed},
     {Kind::acquire_lease, "acquire_lease", Role::operator_, "request", Asks::free_axes},
     {Kind::keep_lease_alive, "keep_lease_alive", Role::operator_, "stream", Asks::lease},
+    {Kind::renew_lease, "renew_lease", Role::operator_, "request", Asks::lease},
     {Kind::release_lease, "release_lease", Role::operator_, "request", Asks::lease},
     {Kind::hand_over_lease, "hand_over_lease", Role::operator_, "request", Asks::lease, Reason::not_found},
     {Kind::take_over_lease, "take_over_lease", Role::operator_, "request", Asks::nothing},
@@ -87,13 +88,19 @@ const std::vector<Row> kRows = {
     {Kind::home, "home", Role::operator_, "request", Asks::axes},
     {Kind::return_to_origin, "return_to_origin", Role::operator_, "request", Asks::axes},
     {Kind::run_path, "run_path", Role::operator_, "stream", Asks::refused, Reason::not_allowed, Reason::not_allowed},
+    {Kind::start_path, "start_path", Role::operator_, "stream", Asks::refused, Reason::not_allowed,
+     Reason::not_allowed},
     {Kind::scan, "scan", Role::operator_, "request", Asks::refused, Reason::not_allowed, Reason::not_allowed},
     {Kind::jog, "jog", Role::operator_, "stream", Asks::axes},
+    {Kind::start_jog, "start_jog", Role::operator_, "stream", Asks::axes},
+    {Kind::keep_jog, "keep_jog", Role::operator_, "request", Asks::nothing, Reason::not_found, Reason::not_found},
+    {Kind::stop_jog, "stop_jog", Role::operator_, "request", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::stop, "stop", Role::observer, "", Asks::nothing},
     {Kind::emergency_stop, "emergency_stop", Role::observer, "", Asks::nothing},
     {Kind::get_motion, "get_motion", Role::observer, "request", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::list_motions, "list_motions", Role::observer, "request", Asks::nothing},
     {Kind::watch_motion, "watch_motion", Role::observer, "stream", Asks::nothing, Reason::not_found, Reason::not_found},
+    {Kind::wait_motion, "wait_motion", Role::observer, "stream", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::cancel_motion, "cancel_motion", Role::operator_, "request", Asks::nothing, Reason::not_found,
      Reason::not_found},
     // Requests for mills are refused, because the device is not a mill.
@@ -268,7 +275,8 @@ Reason expected(const Row& row, const Circumstances& now) {
     case Asks::refused:
       return now.validate_only ? row.only_checked : now.late ? Reason::deadline_passed : row.otherwise;
     case Asks::axes: {
-      if (now.validate_only && row.kind != Kind::jog) return kDone;  // a jog has no validate_only
+      if (now.validate_only && row.kind != Kind::jog && row.kind != Kind::start_jog)
+        return kDone;  // they have no validate_only
       return now.late ? Reason::deadline_passed : by_right(now);
     }
     case Asks::axes_always:

@@ -98,7 +98,7 @@ TEST(PipelineTest, WhileTheDeviceIsNotUpNothingThatMovesIsPlanned) {
     const auto kind = static_cast<RequestKind>(number);
     if (rule_of(kind).deadline == DeadlineRule::motion) moving.push_back(kind);
   }
-  ASSERT_EQ(moving.size(), 7U);
+  ASSERT_EQ(moving.size(), 9U);
   Asking<std::string> silent;  // prevents that the device comes up again
   world.api->simulators.operate(World::by(kAnna), kDevice, "fault silent", silent.answer());
   ASSERT_EQ(silent.reason(), Reason::unspecified);

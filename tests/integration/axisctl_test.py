@@ -177,7 +177,7 @@ class WithDaemon(unittest.TestCase):
         self.refused(3, "UNKNOWN_DEVICE", "--device", "nowhere", "status")
         self.refused(2, "UNKNOWN_AXIS", "move", "w=1mm")
         self.refused(2, "UNKNOWN_UNIT", "move", "x=1inch")
-        self.refused(2, "UNKNOWN_UNIT", "move", "x=1e3mm")
+        self.refused(2, "UNKNOWN_UNIT", "move", "x=1emm")
         self.refused(2, "INVALID_REQUEST", "move", "x=0.5pulse")
         self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 

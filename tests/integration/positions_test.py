@@ -95,7 +95,8 @@ class Positions(unittest.TestCase):
         saved = json.loads(self.ok("--json", "save", "sample", "--coordinates"))
         self.assertEqual((saved["name"], saved["kind"], saved["number"], saved["emptied"]),
                          ("devices/stage/positions/sample", "POSITION_KIND_COORDINATES", 1, False))
-        self.assertEqual(saved["coordinates"][0], {"axis": 1, "pulses": "100000"})
+        self.assertEqual(saved["coordinates"][0], {"axis": 1, "pulses": "100000", "name": "x", "unit": "UNIT_MILLIMETERS",
+                                                    "position": "1"})
         self.assertEqual(json.loads(self.ok("--json", "positions")), saved)
         last = json.loads(self.ok("--json", "go", "sample").splitlines()[-1])
         self.assertEqual(last["motion"]["state"], "MOTION_STATE_SUCCEEDED")

@@ -53,7 +53,6 @@ RETIRED = (
     (r"forecasts?", "transaction prediction"),
     (r"may_use", "authorize"),
     (r"jog_?keeping", "JogContext"),
-    (r"keep_jogs?", "jog watchdog"),
     (r"hear_echo", "on_last_command"),
     (r"still_the_same", "confirm_no_restart"),
     (r"in sight", "connected without interruption"),

@@ -153,6 +153,13 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
                 });
 }
 
+void Leases::renew(const Call& call, std::string_view device, Answer<server::Lease> answer) const {
+  pipeline_.ask({RequestKind::renew_lease, call, find_device(gateway_, device)}, std::move(answer),
+                [](const LeaseTurn& turn, const Answer<server::Lease>& respond) {
+                  respond(turn.controller.keep_alive(turn.context.lease, turn.now));
+                });
+}
+
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {
   pipeline_.once({RequestKind::release_lease, call, find_device(gateway_, device)}, std::move(answer),
                  [](const LeaseTurn& turn, const Answer<void>& respond) {

@@ -56,7 +56,8 @@ class Leases {
   void take_over(const Call& call, std::string_view device, const Result<LeaseWish>& wish,
                  const std::shared_ptr<LeaseSeeker>& seeker) const;
 
-  // release() and hand_over() act on the lease of the call.
+  // renew(), release() and hand_over() act on the lease of the call.
+  void renew(const Call& call, std::string_view device, Answer<server::Lease> answer) const;
   void release(const Call& call, std::string_view device, Answer<void> answer) const;
   void hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const;
   // Answers with the latches that have ended.

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "server/access/access.h"
+#include "server/api/request/awaited.h"
 #include "server/api/request/names.h"
 #include "server/api/request/request_texts.h"
 
@@ -33,12 +35,74 @@ std::optional<Problem> check_directions(const Result<JogAxes>& axes) {
   return {};
 }
 
+Result<void> check_own_jog(const stage::Motion& motion, std::string_view who) {
+  if (motion.kind != stage::MotionKind::jog) {
+    return fail(Reason::invalid_request, fmt::format("motion {} is not a jog", motion.id), "CancelMotion stops it");
+  }
+  if (server::identity_of(motion.who) == server::identity_of(who)) return {};
+  return fail(Reason::not_allowed, fmt::format("motion {} is a jog of {}", motion.id, motion.who),
+              "CancelMotion or Stop stops it");
+}
+
 }  // namespace
 
 Result<std::shared_ptr<Jog>> Jogs::open(const Credential& caller) const {
   Result<Streams::Place> place = streams_.take(RequestKind::jog, name_of(caller));
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Jog>(gateway_, pipeline_, *std::move(place));
+}
+
+void Jogs::start(const Call& call, std::string_view device, const Result<JogAxes>& axes,
+                 Answer<StartedMotion> answer) const {
+  const auto jog = open(call.credential);
+  if (!jog) return answer(tl::unexpected(jog.error()));
+  Awaited<CurrentMotion>::start(
+      *jog, [](const CurrentMotion&) { return true; }, std::move(answer));
+  (void)(*jog)->start(call, device, axes);
+}
+
+template <class Outcome, class Act>
+void Jogs::on_jog(RequestKind kind, const Call& call, std::string_view motion, Answer<Outcome> answer, Act act) const {
+  const Result<MotionName> name = find_motion_name(gateway_, motion);
+  pipeline_.ask({kind, call, device_of(name)}, std::move(answer),
+                [&bus = gateway_.events(), id = name ? name->id : 0, act = std::move(act)](
+                    const Turn& turn, const Answer<Outcome>& respond) {
+                  const Result<CurrentMotion> jog = find_motion(bus, turn.device, turn.controller, id);
+                  if (!jog) return respond(tl::unexpected(jog.error()));
+                  const Result<void> good = check_own_jog(jog->motion, turn.caller.who);
+                  if (!good) return respond(tl::unexpected(good.error()));
+                  act(turn, *jog, respond);
+                });
+}
+
+void Jogs::keep(const Call& call, std::string_view motion, std::int64_t number, const Result<JogAxes>& axes,
+                Answer<KeptJog> answer) const {
+  on_jog(RequestKind::keep_jog, call, motion, std::move(answer),
+         [&bus = gateway_.events(), &numbers = *numbers_, number, axes](const Turn& turn, const CurrentMotion& jog,
+                                                                        const Answer<KeptJog>& respond) {
+           const stage::MotionId id = jog.motion.id;
+           const auto refuse = [&](const Problem& problem) {
+             turn.controller.end_jog(id, problem, turn.now);
+             respond(tl::unexpected(problem));
+           };
+           if (!axes) return refuse(axes.error());
+           numbers.forget_before(&turn.device, id);
+           if (stage::is_outcome(jog.motion.state) || !numbers.counts(&turn.device, id, number)) {
+             return respond(KeptJog{jog, false});
+           }
+           const Result<void> renewed = turn.controller.renew_jog(id, request_axes(*axes), turn.now);
+           if (!renewed && renewed.error().reason != Reason::not_found) return refuse(renewed.error());
+           const Result<CurrentMotion> now = find_motion(bus, turn.device, turn.controller, id);
+           respond(KeptJog{now.value_or(jog), renewed.has_value()});
+         });
+}
+
+void Jogs::stop(const Call& call, std::string_view motion, Answer<CurrentMotion> answer) const {
+  on_jog(RequestKind::stop_jog, call, motion, std::move(answer),
+         [&bus = gateway_.events()](const Turn& turn, const CurrentMotion& jog, const Answer<CurrentMotion>& respond) {
+           turn.controller.end_jog(jog.motion.id, {}, turn.now);
+           respond(find_motion(bus, turn.device, turn.controller, jog.motion.id));
+         });
 }
 
 bool Jog::start(const Call& call, std::string_view device, const Result<JogAxes>& axes) {

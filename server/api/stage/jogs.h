@@ -1,6 +1,7 @@
 // Jogs: axes that run for as long as their caller requests it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "server/api/request/motion_watch.h"
 #include "server/api/request/pipeline.h"
 #include "server/api/request/streams.h"
+#include "server/api/stage/jog_numbers.h"
 #include "server/gateway.h"
 
 namespace axisgate::api {
@@ -64,6 +66,12 @@ class Jog final : public MotionSubscription {
   bool over_ = false;           // the caller no longer wants motion
 };
 
+// A KeptJog is the answer to a message that keeps a jog running.
+struct KeptJog {
+  CurrentMotion motion;
+  bool extended = false;  // the message counted
+};
+
 // Thread safe.
 class Jogs {
  public:
@@ -74,10 +82,25 @@ class Jogs {
   // Fails with queue_full.
   Result<std::shared_ptr<Jog>> open(const Credential& caller) const;
 
+  // The three below are for callers that cannot stream. Answers once the axes run.
+  void start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes,
+             Answer<StartedMotion> answer) const;
+  // Lets the jog run on if `number` is higher than all before it. A refused message stops the axes. Fails with
+  // not_found, invalid_request if the motion is no jog, and not_allowed if it is another caller's.
+  void keep(const Call& call, std::string_view motion, std::int64_t number, const Result<std::vector<JogAxis>>& axes,
+            Answer<KeptJog> answer) const;
+  // Ends the jog at its caller's request. Fails as keep() does.
+  void stop(const Call& call, std::string_view motion, Answer<CurrentMotion> answer) const;
+
  private:
+  // Calls `act` on the strand with the jog, if it is the caller's.
+  template <class Outcome, class Act>
+  void on_jog(RequestKind kind, const Call& call, std::string_view motion, Answer<Outcome> answer, Act act) const;
+
   server::Gateway& gateway_;
   const Pipeline& pipeline_;
   Streams& streams_;
+  const std::unique_ptr<JogNumbers> numbers_ = std::make_unique<JogNumbers>();
 };
 
 }  // namespace axisgate::api

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "device/stage/envelope.h"
+#include "server/api/request/awaited.h"
 #include "server/api/request/names.h"
 #include "server/api/request/request_texts.h"
 
@@ -101,13 +102,34 @@ void Motions::list(const Call& call, std::string_view device, Answer<std::vector
                 });
 }
 
-Opened<CurrentMotion> Motions::watch(const Call& call, std::string_view motion) const {
+Opened<CurrentMotion> Motions::open(RequestKind kind, const Call& call, std::string_view motion) const {
   const Result<MotionName> name = find_motion_name(gateway_, motion);
-  const auto admitted = pipeline_.admit({RequestKind::watch_motion, call, device_of(name)});
+  const auto admitted = pipeline_.admit({kind, call, device_of(name)});
   if (!admitted) return tl::unexpected(admitted.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::watch_motion, admitted->caller.who);
+  Result<Streams::Place> place = streams_.take(kind, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<MotionWatch>(gateway_, *name, *std::move(place));
+}
+
+Opened<CurrentMotion> Motions::watch(const Call& call, std::string_view motion) const {
+  return open(RequestKind::watch_motion, call, motion);
+}
+
+std::function<void()> Motions::wait(const Call& call, std::string_view motion, Duration longest,
+                                    const Answer<CurrentMotion>& answer) const {
+  const Opened<CurrentMotion> watch = open(RequestKind::wait_motion, call, motion);
+  if (!watch) {
+    answer(tl::unexpected(watch.error()));
+    return {};
+  }
+  const auto waiting = Awaited<CurrentMotion>::start(
+      *watch, [](const CurrentMotion& now) { return stage::is_outcome(now.motion.state); },
+      [answer](Result<StartedMotion> found) {
+        found ? answer(**std::move(found)) : answer(tl::unexpected(found.error()));
+      });
+  waiting->limit(gateway_.timeouts(), longest,
+                 {.reason = Reason::deadline_passed, .message = "the state of the motion could not be read in time"});
+  return [waiting] { waiting->leave(); };
 }
 
 void Motions::cancel(const Call& call, std::string_view motion, Answer<void> answer) const {

@@ -1,6 +1,7 @@
 // Motions with one request and one answer, and queries of all motions.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -39,10 +40,16 @@ class Motions {
   // Streams the motion now and at every change, until its outcome; a slow reader sees fewer changes. Ends with
   // not_found if there is no such motion.
   Opened<CurrentMotion> watch(const Call& call, std::string_view motion) const;
+  // Answers when the motion has its outcome, or after `longest` with its present state. Returns a function to call if
+  // the caller leaves; null if the request was refused. Fails with not_found.
+  std::function<void()> wait(const Call& call, std::string_view motion, Duration longest,
+                             const Answer<CurrentMotion>& answer) const;
   // Needs no lease, like a stop. Fails with not_found.
   void cancel(const Call& call, std::string_view motion, Answer<void> answer) const;
 
  private:
+  Opened<CurrentMotion> open(RequestKind kind, const Call& call, std::string_view motion) const;
+
   using Start = void (stage::StageController::*)(stage::HomeRequest, TimePoint, stage::StageController::OnStarted);
   void begin_home(RequestKind kind, Start start, const Call& call, std::string_view device,
                   const Result<stage::AxisSet>& axes, Answer<StartedMotion> answer) const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "server/api/request/awaited.h"
 #include "server/api/request/names.h"
 
 namespace axisgate::api {
@@ -67,6 +68,26 @@ Result<std::shared_ptr<Path>> Paths::open(const Credential& caller) const {
   Result<Streams::Place> place = streams_.take(RequestKind::run_path, name_of(caller));
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Path>(gateway_, pipeline_, *std::move(place));
+}
+
+void Paths::start(const Call& call, std::string_view device, std::vector<Result<stage::Segment>> segments,
+                  Answer<StartedMotion> answer) const {
+  if (segments.size() > kSegmentsInOneMessage) {
+    return answer(
+        fail(Reason::invalid_request,
+             fmt::format("the path has {} segments, and one message takes {}", segments.size(), kSegmentsInOneMessage),
+             "send a longer path with RunPath"));
+  }
+  const auto path = open(call.credential);
+  if (!path) return answer(tl::unexpected(path.error()));
+  const auto started = [](const PathStep& step) { return std::holds_alternative<CurrentMotion>(step.what); };
+  Awaited<PathStep>::start(*path, started, [answer = std::move(answer)](Result<std::optional<PathStep>> step) {
+    if (!step) return answer(tl::unexpected(step.error()));
+    answer(*step ? StartedMotion(std::get<CurrentMotion>((*step)->what)) : std::nullopt);
+  });
+  bool taken = (*path)->start(call, device);
+  for (Result<stage::Segment>& segment : segments) taken = taken && (*path)->add(std::move(segment));
+  if (taken) (*path)->run(call.digest);
 }
 
 bool Path::start(const Call& call, std::string_view device) {

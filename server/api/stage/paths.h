@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "device/stage/event.h"
@@ -94,6 +95,11 @@ class Paths {
 
   // Fails with queue_full.
   Result<std::shared_ptr<Path>> open(const Credential& caller) const;
+  // Runs a path that has arrived in one message, and answers once it has started; with nullopt after validate_only.
+  // Fails with invalid_request for more than kSegmentsInOneMessage segments.
+  static constexpr std::size_t kSegmentsInOneMessage = 10'000;
+  void start(const Call& call, std::string_view device, std::vector<Result<stage::Segment>> segments,
+             Answer<StartedMotion> answer) const;
 
  private:
   server::Gateway& gateway_;

@@ -24,6 +24,14 @@ api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline,
 api::Call to_call(const grpc::CallbackServerContext& call);
 api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext& context, bool validate_only = false);
 
+// Builds the Call of a request with a context.
+template <class Request>
+api::Call to_acting_call(const grpc::CallbackServerContext& context, const Request& request) {
+  api::Call made = to_call(context, request.context());
+  if (!made.request_id.empty()) made.digest = proto::digest_of(request);
+  return made;
+}
+
 // Builds the Call of a request with a context and validate_only.
 template <class Request>
 api::Call to_checked_call(const grpc::CallbackServerContext& call, const Request& request) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/proto/amounts.h"
+#include "server/proto/targets.h"
 #include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unreadable.h"
@@ -13,26 +13,6 @@ namespace axisgate::rpc {
 namespace {
 
 constexpr const char* kJogMethod = "/axisgate.v1.StageService/Jog";
-
-std::optional<int> to_direction(v1::AxisJog::Direction direction) {
-  if (direction == v1::AxisJog::DIRECTION_PLUS) return 1;
-  if (direction == v1::AxisJog::DIRECTION_MINUS) return -1;
-  return std::nullopt;
-}
-
-Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request, const api::AxisNames& names) {
-  std::vector<api::JogAxis> axes;
-  for (const v1::AxisJog& one : request.axes()) {
-    const Result<int> axis = names.find(one.axis());
-    if (!axis) return tl::unexpected(axis.error());
-    axes.push_back({.axis = *axis, .direction = to_direction(one.direction())});
-    if (!one.has_speed()) continue;
-    const Result<Quantity> speed = proto::to_quantity(one.speed());
-    if (!speed) return tl::unexpected(speed.error());
-    axes.back().speed = *speed;
-  }
-  return axes;
-}
 
 }  // namespace
 
@@ -63,7 +43,7 @@ void JogRun::OnReadDone(bool ok) {
 
 bool JogRun::take() {
   if (!started_) names_ = api::axis_names(gateway_, incoming_->device());
-  const auto axes = to_jog_axes(*incoming_, names_);
+  const auto axes = proto::to_jog_axes(incoming_->axes(), names_);
   if (std::exchange(started_, true)) return jog_->renew(axes);
   api::Call call = to_call(context_, incoming_->context());
   call.digest = proto::digest_of(*incoming_);

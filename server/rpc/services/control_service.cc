@@ -60,6 +60,16 @@ class ControlService final : public v1::ControlService::CallbackService {
     return LeaseKeeping::start(*std::move(keeping));
   }
 
+  grpc::ServerUnaryReactor* RenewLease(grpc::CallbackServerContext* context, const v1::RenewLeaseRequest* request,
+                                       v1::RenewLeaseResponse* response) override {
+    const auto call = UnaryCall<v1::RenewLeaseResponse>::start(response);
+    leases_.renew(to_call(*context, request->context()), request->device(),
+                  answering<server::Lease>(call, [](v1::RenewLeaseResponse& answer, const server::Lease& lease) {
+                    *answer.mutable_lease() = proto::to_proto(lease);
+                  }));
+    return call.get();
+  }
+
   grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context, const v1::ReleaseLeaseRequest* request,
                                          v1::ReleaseLeaseResponse* response) override {
     const auto call = UnaryCall<v1::ReleaseLeaseResponse>::start(response);

@@ -14,13 +14,6 @@
 namespace axisgate::rpc {
 namespace {
 
-template <class Request>
-api::Call to_acting_call(const grpc::CallbackServerContext& context, const Request& request) {
-  api::Call made = to_call(context, request.context());
-  if (!made.request_id.empty()) made.digest = proto::digest_of(request);
-  return made;
-}
-
 template <class Response>
 api::Answer<api::CurrentJob> answering_with_job(std::shared_ptr<UnaryCall<Response>> call) {
   return answering<api::CurrentJob>(std::move(call), [](Response& response, const api::CurrentJob& job) {

@@ -1,4 +1,6 @@
 // StageService: motion. The front answers stops (call_filter.h).
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "axisgate/v1/stage.grpc.pb.h"
@@ -6,6 +8,7 @@
 #include "server/api/stage/jogs.h"
 #include "server/api/stage/motions.h"
 #include "server/api/stage/paths.h"
+#include "server/limits.h"
 #include "server/proto/amounts.h"
 #include "server/proto/targets.h"
 #include "server/proto/to_proto.h"
@@ -66,6 +69,17 @@ class StageService final : public v1::StageService::CallbackService {
     return PathRun::start(*std::move(path), *context, half_close_, gateway_);
   }
 
+  grpc::ServerUnaryReactor* StartPath(grpc::CallbackServerContext* context, const v1::StartPathRequest* request,
+                                      v1::StartPathResponse* response) override {
+    const auto call = UnaryCall<v1::StartPathResponse>::start(response);
+    std::vector<Result<stage::Segment>> segments;
+    const api::AxisNames names = names_of(*request);
+    for (const v1::Segment& segment : request->segments()) segments.push_back(proto::to_segment(segment, names));
+    paths_.start(to_checked_call(*context, *request), request->device(), std::move(segments),
+                 answering_with_motion(call));
+    return call.get();
+  }
+
   grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
                                  v1::ScanResponse* response) override {
     const auto call = UnaryCall<v1::ScanResponse>::start(response);
@@ -78,6 +92,37 @@ class StageService final : public v1::StageService::CallbackService {
     auto jog = jogs_.open(credential_of(*context));
     if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
     return JogRun::start(*std::move(jog), *context, half_close_, gateway_);
+  }
+
+  grpc::ServerUnaryReactor* StartJog(grpc::CallbackServerContext* context, const v1::StartJogRequest* request,
+                                     v1::StartJogResponse* response) override {
+    const auto call = UnaryCall<v1::StartJogResponse>::start(response);
+    jogs_.start(to_acting_call(*context, *request), request->device(),
+                proto::to_jog_axes(request->axes(), names_of(*request)), answering_with_motion(call));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* KeepJog(grpc::CallbackServerContext* context, const v1::KeepJogRequest* request,
+                                    v1::KeepJogResponse* response) override {
+    const auto call = UnaryCall<v1::KeepJogResponse>::start(response);
+    const std::string device = request->motion().substr(0, request->motion().find("/motions/"));
+    jogs_.keep(to_call(*context), request->motion(), request->number(),
+               proto::to_jog_axes(request->axes(), api::axis_names(gateway_, device)),
+               answering<api::KeptJog>(call, [](v1::KeepJogResponse& answer, const api::KeptJog& kept) {
+                 *answer.mutable_motion() = proto::to_proto(kept.motion);
+                 answer.set_extended(kept.extended);
+               }));
+    return call.get();
+  }
+
+  grpc::ServerUnaryReactor* StopJog(grpc::CallbackServerContext* context, const v1::StopJogRequest* request,
+                                    v1::StopJogResponse* response) override {
+    const auto call = UnaryCall<v1::StopJogResponse>::start(response);
+    jogs_.stop(to_call(*context), request->motion(),
+               answering<api::CurrentMotion>(call, [](v1::StopJogResponse& answer, const api::CurrentMotion& motion) {
+                 *answer.mutable_motion() = proto::to_proto(motion);
+               }));
+    return call.get();
   }
 
   grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const v1::GetMotionRequest* request,
@@ -108,6 +153,19 @@ class StageService final : public v1::StageService::CallbackService {
                                           [](v1::WatchMotionResponse& response, const api::CurrentMotion& motion) {
                                             *response.mutable_motion() = proto::to_proto(motion);
                                           });
+  }
+
+  grpc::ServerUnaryReactor* WaitMotion(grpc::CallbackServerContext* context, const v1::WaitMotionRequest* request,
+                                       v1::WaitMotionResponse* response) override {
+    const auto call = UnaryCall<v1::WaitMotionResponse>::start(response);
+    const Duration longest = request->has_max_wait() ? proto::to_span(request->max_wait()) : server::kRequestLimit;
+    const auto leave = motions_.wait(
+        to_call(*context), request->motion(), std::min(longest, server::kMotionWaitMax),
+        answering<api::CurrentMotion>(call, [](v1::WaitMotionResponse& answer, const api::CurrentMotion& motion) {
+          *answer.mutable_motion() = proto::to_proto(motion);
+        }));
+    if (leave) call->when_cancelled(leave);
+    return call.get();
   }
 
   grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const v1::CancelMotionRequest* request,
