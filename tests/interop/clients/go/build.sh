@@ -21,7 +21,7 @@ cp "$here"/go.mod "$here"/go.sum "$here"/*.go "$folder/src"
 cd "$folder/src"
 GOBIN="$folder/bin" go install tool
 
-# The M options name the Go package, because the files have no go_package.
+# The M options put the generated code into this module instead of the package that the files name.
 options=()
 files=()
 for path in "$proto"/axisgate/v1/*.proto; do

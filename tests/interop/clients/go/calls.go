@@ -81,8 +81,8 @@ func checkExecute(c *client) {
 	stream := must(c.Execute(background, request))
 	for line := range int32(3) {
 		message := must(stream.Recv())
-		if reply := message.GetReply(); reply == nil || reply.Line != line || reply.Answer == "" {
-			fail("Execute: seen {%v}, expected the reply to line %d", message, line)
+		if reply := message.GetReply(); reply == nil || reply.Line != line+1 || reply.Answer == "" {
+			fail("Execute: seen {%v}, expected the reply to line %d", message, line+1)
 		}
 	}
 	expectEnd("Execute", stream, codes.OK)
@@ -129,7 +129,7 @@ func compressed(c *client) {
 }
 
 func keepLease(c *client) {
-	terms := &api.LeaseTerms{Axes: []int32{3}, TimeToLive: durationpb.New(10 * time.Second)}
+	terms := &api.LeaseTerms{Axes: []string{"3"}, TimeToLive: durationpb.New(10 * time.Second)}
 	lease := must(c.AcquireLease(background, &api.AcquireLeaseRequest{Device: stage, Terms: terms})).GetLease()
 	expect("the length of the token", len(lease.GetToken()), 24)
 	stream := must(c.KeepLeaseAlive(background))

@@ -58,7 +58,7 @@ func (w *watch) move() {
 	distance := &api.Distance{Amount: &api.Distance_Um{Um: []string{"10", "-10"}[w.moves%2]}}
 	w.moves++
 	name := must(w.Move(background, &api.MoveRequest{Device: stage, Relative: true,
-		Targets: []*api.AxisTarget{{Axis: 1, Distance: distance}}})).GetMotion().GetName()
+		Targets: []*api.AxisTarget{{Axis: "1", Distance: distance}}})).GetMotion().GetName()
 	for {
 		motion := must(w.receive()).GetMotion()
 		if motion.GetName() == name && motion.GetState() >= api.MotionState_MOTION_STATE_SUCCEEDED {
@@ -91,7 +91,7 @@ func passDeadline(c *client) {
 
 // sendJog ignores the error of Send, because Recv returns the status.
 func sendJog(stream api.StageService_JogClient, device string, direction api.AxisJog_Direction, speed int64) {
-	axis := &api.AxisJog{Axis: 2, Direction: direction,
+	axis := &api.AxisJog{Axis: "2", Direction: direction,
 		Speed: &api.Speed{Amount: &api.Speed_PulsesPerS{PulsesPerS: speed}}}
 	_ = stream.Send(&api.JogRequest{Device: device, Axes: []*api.AxisJog{axis}})
 }

@@ -63,7 +63,7 @@ class Watch {
 
 async function move(api, watch, nth = 0) {
   const distance = { um: nth % 2 === 0 ? '10' : '-10' };
-  const request = { device: STAGE, relative: true, targets: [{ axis: 1, distance }] };
+  const request = { device: STAGE, relative: true, targets: [{ axis: '1', distance }] };
   const { motion } = await api.call('StageService.Move', request);
   await watch.succeeded(motion.name);
 }
@@ -100,7 +100,7 @@ rows.watch = async (api) => {
 async function executeOnce(api) {
   const stream = api.read('CommandService.Execute', { device: STAGE, lines: ['*IDN?', 'Q:', '?:N'] });
   const messages = await stream.end('OK');
-  expect('reply.line', messages.map(({ reply }) => reply?.line), [0, 1, 2]);
+  expect('reply.line', messages.map(({ reply }) => reply?.line), [1, 2, 3]);
   if (messages.some(({ reply }) => !reply.answer)) fail('reply.answer', 'nothing', 'an answer');
 }
 
@@ -130,7 +130,7 @@ async function sendJob(api) {
 rows['send-job'] = sendJob;
 
 function axis2(speed, direction) {
-  return [{ axis: 2, direction, speed: { pulses_per_s: speed } }];
+  return [{ axis: '2', direction, speed: { pulses_per_s: speed } }];
 }
 
 // Begins a jog and returns its stream after an answer in state RUNNING.
@@ -150,7 +150,7 @@ rows.jog = async (api) => {
 };
 
 rows['keep-lease'] = async (api) => {
-  const terms = { axes: [3], time_to_live: { seconds: 10 } };
+  const terms = { axes: ['3'], time_to_live: { seconds: 10 } };
   const { lease } = await api.call('ControlService.AcquireLease', { device: STAGE, terms });
   expect('bytes of the token', lease.token.length, 24);
   const stream = api.converse('ControlService.KeepLeaseAlive');

@@ -85,7 +85,7 @@ class Watch:
 
 def move(calls, watch, nth=0):
     distance = common_pb2.Distance(um="10" if nth % 2 == 0 else "-10")
-    targets = [common_pb2.AxisTarget(axis=1, distance=distance)]
+    targets = [common_pb2.AxisTarget(axis="1", distance=distance)]
     request = stage_pb2.MoveRequest(device=STAGE, relative=True, targets=targets)
     watch.succeeded(calls.call("stage.StageService.Move", request).motion.name)
 
@@ -132,7 +132,7 @@ def execute(calls, lines, code):
 def execute_once(calls):
     messages = execute(calls, ["*IDN?", "Q:", "?:N"], "OK")
     expect("changes", [message.WhichOneof("change") for message in messages], ["reply"] * 3)
-    expect("reply.line", [message.reply.line for message in messages], [0, 1, 2])
+    expect("reply.line", [message.reply.line for message in messages], [1, 2, 3])
     if not all(message.reply.answer for message in messages):
         raise Failure("reply.answer", "nothing", "an answer")
 
@@ -169,7 +169,7 @@ def converse(calls, name):
 
 
 def axis2(pulses_per_s, **direction):
-    return [stage_pb2.AxisJog(axis=2, speed=common_pb2.Speed(pulses_per_s=pulses_per_s), **direction)]
+    return [stage_pb2.AxisJog(axis="2", speed=common_pb2.Speed(pulses_per_s=pulses_per_s), **direction)]
 
 
 def begin_jog(calls):
@@ -193,7 +193,7 @@ def jog(calls):
 
 @row("keep-lease")
 def keep_lease(calls):
-    terms = control_pb2.LeaseTerms(axes=[3], time_to_live=duration_pb2.Duration(seconds=10))
+    terms = control_pb2.LeaseTerms(axes=["3"], time_to_live=duration_pb2.Duration(seconds=10))
     request = control_pb2.AcquireLeaseRequest(device=STAGE, terms=terms)
     token = calls.call("control.ControlService.AcquireLease", request).lease.token
     expect("bytes of the token", len(token), 24)

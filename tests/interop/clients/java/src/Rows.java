@@ -1,17 +1,8 @@
-import static axisgate.v1.DeviceOuterClass.LinkState.LINK_STATE_UP;
-import static axisgate.v1.MotionOuterClass.MotionState.*;
+import static axisgate.v1.LinkState.LINK_STATE_UP;
+import static axisgate.v1.MotionState.*;
 import static java.util.concurrent.TimeUnit.MILLISECONDS;
 
 import axisgate.v1.*;
-import axisgate.v1.Access.GetCallerRequest;
-import axisgate.v1.CommandOuterClass.*;
-import axisgate.v1.Common.*;
-import axisgate.v1.Control.*;
-import axisgate.v1.DeviceOuterClass.*;
-import axisgate.v1.EventOuterClass.*;
-import axisgate.v1.MillOuterClass.*;
-import axisgate.v1.MotionOuterClass.Motion;
-import axisgate.v1.Stage.*;
 import com.google.protobuf.ByteString;
 import com.google.protobuf.Duration;
 import io.grpc.*;
@@ -120,7 +111,7 @@ final class Rows {
 
   private void jog() throws InterruptedException {
     Answers<JogRequest, JogResponse> jog = beginJog();
-    var faster = AxisJog.newBuilder().setAxis(2).setSpeed(Speed.newBuilder().setPulsesPerS(2000));
+    var faster = AxisJog.newBuilder().setAxis("2").setSpeed(Speed.newBuilder().setPulsesPerS(2000));
     jog.call.onNext(JogRequest.newBuilder().addAxes(faster).build());
     jog.call.onCompleted();
     Motion last = Motion.getDefaultInstance();
@@ -133,7 +124,7 @@ final class Rows {
 
   private void keepLease() throws InterruptedException {
     var control = ControlServiceGrpc.newBlockingStub(channel);
-    var terms = LeaseTerms.newBuilder().addAxes(3).setTimeToLive(Duration.newBuilder().setSeconds(10));
+    var terms = LeaseTerms.newBuilder().addAxes("3").setTimeToLive(Duration.newBuilder().setSeconds(10));
     var acquire = AcquireLeaseRequest.newBuilder().setDevice(STAGE).setTerms(terms).build();
     ByteString token = control.acquireLease(acquire).getLease().getToken();
     Failure.expect("bytes of the token", token.size(), 24);
@@ -295,7 +286,7 @@ final class Rows {
       Failure.check(answers.hasNext(), "Execute", line + " answers", "3 answers");
       ExecuteResponse answer = answers.next();
       Failure.check(answer.hasReply(), "Execute", answer, "a reply");
-      Failure.expect("reply.line", answer.getReply().getLine(), line);
+      Failure.expect("reply.line", answer.getReply().getLine(), line + 1);
       Failure.check(!answer.getReply().getAnswer().isEmpty(), "reply.answer", "nothing", "an answer");
     }
     Failure.check(!answers.hasNext(), "Execute", "a fourth answer", "OK");
@@ -320,7 +311,7 @@ final class Rows {
   private Answers<JogRequest, JogResponse> beginJog() throws InterruptedException {
     var jog = new Answers<JogRequest, JogResponse>();
     StageServiceGrpc.newStub(channel).jog(jog);
-    var axis = AxisJog.newBuilder().setAxis(2).setDirection(AxisJog.Direction.DIRECTION_PLUS)
+    var axis = AxisJog.newBuilder().setAxis("2").setDirection(AxisJog.Direction.DIRECTION_PLUS)
         .setSpeed(Speed.newBuilder().setPulsesPerS(1000));
     jog.call.onNext(JogRequest.newBuilder().setDevice(STAGE).addAxes(axis).build());
     while (jog.need().getMotion().getState() != MOTION_STATE_RUNNING) {

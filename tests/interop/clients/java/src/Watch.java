@@ -1,8 +1,5 @@
-import axisgate.v1.Common.*;
-import axisgate.v1.EventOuterClass.*;
+import axisgate.v1.*;
 import axisgate.v1.EventServiceGrpc.EventServiceStub;
-import axisgate.v1.MotionOuterClass.*;
-import axisgate.v1.Stage.MoveRequest;
 import axisgate.v1.StageServiceGrpc.StageServiceBlockingStub;
 import io.grpc.Status;
 
@@ -33,7 +30,7 @@ final class Watch {
   void move(StageServiceBlockingStub stage) throws InterruptedException {
     var distance = Distance.newBuilder().setUm(moves++ % 2 == 0 ? "10" : "-10");
     var request = MoveRequest.newBuilder().setDevice(Rows.STAGE).setRelative(true)
-        .addTargets(AxisTarget.newBuilder().setAxis(1).setDistance(distance)).build();
+        .addTargets(AxisTarget.newBuilder().setAxis("1").setDistance(distance)).build();
     String name = stage.move(request).getMotion().getName();
     Motion motion;
     do {

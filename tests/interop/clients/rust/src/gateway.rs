@@ -195,7 +195,7 @@ impl Gateway {
         let um = if watch.moves.is_multiple_of(2) { "10" } else { "-10" };
         watch.moves += 1;
         let distance = Distance { amount: Some(Amount::Um(um.to_string())) };
-        let target = AxisTarget { axis: 1, distance: Some(distance), ..Default::default() };
+        let target = AxisTarget { axis: "1".to_string(), distance: Some(distance), ..Default::default() };
         let device = STAGE.to_string();
         let message = MoveRequest { device, targets: vec![target], relative: true, ..Default::default() };
         let answer = self.stages().r#move(request(message)).await.during("Move")?;

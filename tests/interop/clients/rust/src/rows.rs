@@ -110,7 +110,7 @@ async fn execute_questions(gateway: &Gateway) -> Check {
     let mut replies = gateway.commands().execute(request(message)).await.during("Execute")?.into_inner();
     for line in 0..3 {
         let change = next(&mut replies).await.during("Execute")?.and_then(|message| message.change);
-        let good = matches!(&change, Some(Change::Reply(reply)) if reply.line == line && !reply.answer.is_empty());
+        let good = matches!(&change, Some(Change::Reply(reply)) if reply.line == line + 1 && !reply.answer.is_empty());
         expect("Execute", &change, &format!("the reply to line {line}"), good)?;
     }
     expect_end("Execute", &mut replies).await
@@ -145,7 +145,7 @@ async fn send_job(gateway: &Gateway) -> Check {
 
 fn jog_message(device: &str, direction: Direction, pulses_per_s: i64) -> JogRequest {
     let speed = Some(Speed { amount: Some(Amount::PulsesPerS(pulses_per_s)) });
-    let axes = vec![AxisJog { axis: 2, direction: direction.into(), speed }];
+    let axes = vec![AxisJog { axis: "2".to_string(), direction: direction.into(), speed }];
     JogRequest { device: device.to_string(), axes, ..Default::default() }
 }
 
@@ -181,7 +181,7 @@ async fn jog(gateway: &Gateway) -> Check {
 
 async fn keep_lease(gateway: &Gateway) -> Check {
     let time_to_live = Some(Span { seconds: 10, nanos: 0 });
-    let terms = Some(LeaseTerms { axes: vec![3], time_to_live, ..Default::default() });
+    let terms = Some(LeaseTerms { axes: vec!["3".to_string()], time_to_live, ..Default::default() });
     let message = AcquireLeaseRequest { device: STAGE.to_string(), terms, ..Default::default() };
     let answer = gateway.control().acquire_lease(request(message)).await.during("AcquireLease")?;
     let token = answer.into_inner().lease.unwrap_or_default().token;
