@@ -1,6 +1,7 @@
 #include "clients/axisctl/connection.h"
 
 #include <fmt/format.h>
+#include <google/rpc/status.pb.h>
 
 #include <charconv>
 #include <chrono>
@@ -132,7 +133,7 @@ void Connection::check(const grpc::Status& status) const {
 }
 
 v1::Problem problem_of(const grpc::Status& status) {
-  v1::ErrorStatus details;
+  google::rpc::Status details;
   v1::Problem problem;
   if (!details.ParseFromString(status.error_details())) return problem;
   for (const google::protobuf::Any& detail : details.details()) {

@@ -57,6 +57,9 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "REQUEST_MEMORY_LOST",
     "STOP_UNCONFIRMED",
     "DAEMON_ENDING",
+    "WRONG_JOB_STATE",
+    "SETUP_CHANGED",
+    "NOT_CONFIRMED",
 });
 static_assert(kNames.size() == static_cast<std::size_t>(kLastReason) + 1, "a name for each Reason");
 

@@ -68,8 +68,12 @@ enum class Reason {
   stop_unconfirmed,
   // the daemon
   daemon_ending,
+  // jobs
+  wrong_job_state,
+  setup_changed,
+  not_confirmed,
 };
-inline constexpr Reason kLastReason = Reason::daemon_ending;
+inline constexpr Reason kLastReason = Reason::not_confirmed;
 
 // Returns a name such as "STALE_SETPOINT", as in the API and in log lines.
 std::string_view name(Reason reason);

@@ -16,7 +16,7 @@ constexpr std::string_view kExpired = "the confirmation has expired";
 Result<void> check_same_left(const Job& job, const JobSetup& seen) {
   if (seen.left == job.setup.left) return {};
   return fail(
-      Reason::stale_setpoint,
+      Reason::setup_changed,
       fmt::format("before {}: {}; that is not what was seen", text_of(job),
                   job.setup.left.empty() ? "nothing is left" : fmt::format("{}", fmt::join(job.setup.left, ", "))),
       "look at the job again, then confirm it");
@@ -25,7 +25,7 @@ Result<void> check_same_left(const Job& job, const JobSetup& seen) {
 Result<void> check_same_setup(const Job& job, const JobSetup& seen) {
   if (seen == job.setup) return {};
   return fail(
-      Reason::stale_setpoint,
+      Reason::setup_changed,
       fmt::format("{} needs the tool {}, the origin {} and the profile {}, or its bytes are others than those seen",
                   text_of(job), job.setup.tool, job.setup.origin, job.setup.profile),
       "look at the job again, then confirm what it needs");
@@ -41,7 +41,7 @@ Result<void> Confirmations::check_settled() const {
       jobs, [](const Job& job) { return job.state == JobState::fed || job.state == JobState::paused_unknown; });
   if (open == jobs.end()) return {};
   const bool fed = open->state == JobState::fed;
-  return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(*open), name(open->state)),
+  return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(*open), name(open->state)),
               fed ? "look at its workpiece, then say that it is done: `axisctl mill done`"
                   : "look at the mill, then take the job out of the queue: `axisctl mill cancel`");
 }
@@ -54,11 +54,11 @@ Result<void> Confirmations::check_next(JobNumber number) const {
   const Job* const first = queue_.first_waiting();
   if (first == &job) return {};
   if (first == nullptr || !is_waiting(job)) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
+    return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that waits can be confirmed");
   }
   const auto unfinished = [&](const std::string& how_it_continues) {
-    return fail(Reason::wrong_mode, fmt::format("{} is not finished: {}", text_of(*first), how_it_continues),
+    return fail(Reason::wrong_job_state, fmt::format("{} is not finished: {}", text_of(*first), how_it_continues),
                 "confirm that one, or have it cancelled");
   };
   if (first->setup.from && !waits_to_begin(*first)) {
@@ -67,7 +67,7 @@ Result<void> Confirmations::check_next(JobNumber number) const {
   if (first->part > 0 && !waits_to_begin(*first)) {
     return unfinished(fmt::format("its next tool is {}", first->setup.tool));
   }
-  return fail(Reason::wrong_mode, fmt::format("{} is before {}", text_of(*first), text_of(job)),
+  return fail(Reason::wrong_job_state, fmt::format("{} is before {}", text_of(*first), text_of(job)),
               "confirm that one, or have it cancelled; `axisctl mill first` moves a job forward");
 }
 
@@ -75,7 +75,7 @@ Result<void> Confirmations::check_next(JobNumber number) const {
 Result<void> Confirmations::check_z0(const Job& job) const {
   const bool as_checked = job.z0_count == left_.z0_count();
   if (job.continues == 0 || job.setup.from || !waits_to_begin(job) || as_checked) return {};
-  return fail(Reason::stale_setpoint,
+  return fail(Reason::setup_changed,
               fmt::format("Z0 was sent to the mill since job {} began, and {} was checked on its workpiece",
                           job.continues, text_of(job)),
               "cancel the job, and send it without the one that it continues");
@@ -95,7 +95,7 @@ Result<void> Confirmations::confirm(JobNumber number, const JobSetup& seen, std:
 
 Result<void> Confirmations::check(const Job& job, TimePoint now) const {
   if (job.state == JobState::confirmed && job.confirmation->until > now) return {};
-  return fail(Reason::not_allowed,
+  return fail(Reason::not_confirmed,
               job.void_because.empty()
                   ? fmt::format("{} is not confirmed at the mill", text_of(job))
                   : fmt::format("{} is no longer confirmed at the mill, since {}", text_of(job), job.void_because),

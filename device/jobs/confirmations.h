@@ -20,10 +20,10 @@ class Confirmations {
   // The referenced objects must outlive this one. `lasts`: time for which a confirmation is valid.
   Confirmations(JobQueue& queue, const SetupLeft& left, Duration lasts) : queue_(queue), left_(left), lasts_(lasts) {}
 
-  // Checks that the job is the next to be confirmed. Fails with not_found. Fails with wrong_mode if the job does not
-  // wait, if another job comes first, or if a job is FED or PAUSED_UNKNOWN. Call it only while no job runs.
+  // Checks that the job is the next to be confirmed. Fails with not_found. Fails with wrong_job_state if the job does
+  // not wait, if another job comes first, or if a job is FED or PAUSED_UNKNOWN. Call it only while no job runs.
   Result<void> check_next(JobNumber number) const;
-  // Confirms a job for which check_next() has passed. Fails with stale_setpoint if `seen` differs from the job's setup,
+  // Confirms a job for which check_next() has passed. Fails with setup_changed if `seen` differs from the job's setup,
   // or if Z0 was sent to the mill since the workpiece that the job continues was begun.
   Result<void> confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now);
   // Fails with not_allowed if the job is not confirmed, or no longer confirmed.

@@ -60,7 +60,7 @@ Result<void> JobQueue::request(JobNumber number, JobEvent event, std::string_vie
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
   if (!next((*job)->state, event)) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
+    return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
                 "`axisctl mill queue` shows what can be done with it");
   }
   change(**job, event, by, "", now);
@@ -96,7 +96,7 @@ Result<void> JobQueue::move_first(JobNumber number, Overtaken overtaken, std::st
   const Result<Job*> found = find(number);
   if (!found) return tl::unexpected(found.error());
   if ((*found)->state != JobState::queued) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**found), name((*found)->state)),
+    return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(**found), name((*found)->state)),
                 "only a job that is QUEUED can be moved");
   }
   const std::vector<Job*> cycle = overtaken_by(jobs_, **found, overtaken);

@@ -46,8 +46,8 @@ class JobQueue {
   Result<Job*> find(JobNumber number);
   // Returns the job, which must be in the queue.
   Job& at(JobNumber number);
-  // Applies an event that a caller requests. Fails with not_found, or with wrong_mode if the job's state does not allow
-  // the event.
+  // Applies an event that a caller requests. Fails with not_found, or with wrong_job_state if the job's state does not
+  // allow the event.
   Result<void> request(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
   // Applies an event to a job of this queue. A job that has ended leaves the queue. An event that the job's state does
   // not allow is reported as a violation and has no effect.
@@ -55,7 +55,7 @@ class JobQueue {
   // Makes the job PAUSED_UNKNOWN after an internal error, whatever its state is.
   void abandon(Job& job, std::string_view why, TimePoint now);
   // Moves a job before the QUEUED jobs that it overtakes: it takes the place of the first of them, the first takes the
-  // place of the second, and so on. Fails with not_found, or with wrong_mode if the job is not QUEUED.
+  // place of the second, and so on. Fails with not_found, or with wrong_job_state if the job is not QUEUED.
   Result<void> move_first(JobNumber number, Overtaken overtaken, std::string_view by, TimePoint now);
   // Ends the QUEUED jobs that nobody has confirmed in time.
   void expire(TimePoint now);

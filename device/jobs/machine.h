@@ -82,24 +82,24 @@ class Machine : public LineMachine {
   // another job. Any other job with Job::continues must have Job::z0_count: the z0_count() for which its heights are
   // valid.
   virtual void add(Job job, TimePoint now) = 0;
-  // Confirms a job for a person at the machine. Fails with link_down; with wrong_mode if a job runs; and as
+  // Confirms a job for a person at the machine. Fails with link_down; with wrong_job_state if a job runs; and as
   // Confirmations::check_next() and confirm() do.
   virtual Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now) = 0;
-  // Checks what start() checks, except the bytes and the right to the machine. Fails with not_found; wrong_mode if a
-  // job runs; link_down; not_allowed if the job is not confirmed, or no longer confirmed; axis_busy.
+  // Checks what start() checks, except the bytes and the right to the machine. Fails with not_found; wrong_job_state if
+  // a job runs; link_down; not_allowed if the job is not confirmed, or no longer confirmed; axis_busy.
   virtual Result<void> check_startable(JobNumber job, TimePoint now) = 0;
   // Starts a job. Sends its first byte at once if the machine takes it. `prepared`: the job's next part, prepared by
   // the machine's own Model. Fails as check_startable() and Permission::authorize() do.
   virtual Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by,
                              TimePoint now) = 0;
   // Pauses the running job. If `raise`, the tool is raised after the bytes sent before, and the job is then PAUSED.
-  // Fails with wrong_mode if no job is being sent.
+  // Fails with wrong_job_state if no job is being sent.
   virtual Result<void> pause(bool raise, TimePoint now) = 0;
-  // Resumes a job that is paused with the tool in the cut. Fails with wrong_mode if there is no such job, and as
+  // Resumes a job that is paused with the tool in the cut. Fails with wrong_job_state if there is no such job, and as
   // Permission::authorize() does.
   virtual Result<void> resume(const use::RequestContext& by, TimePoint now) = 0;
   // Sets the place in its part at which a PAUSED_UNKNOWN or PAUSED job continues after it is confirmed and started.
-  // Fails with not_found; wrong_mode if the job is in another state.
+  // Fails with not_found; wrong_job_state if the job is in another state.
   virtual Result<void> choose_rest(JobNumber job, const JobRest& rest, std::string_view by, TimePoint now) = 0;
   // Takes over the plan for the rest of a job, which was computed off the strand. Has no effect if the job no longer
   // continues at the same place.
@@ -110,14 +110,15 @@ class Machine : public LineMachine {
   virtual bool abort(const use::RequestContext& by, TimePoint now) = 0;
   // Aborts in the same manner, but not as a stop: no caller has to rearm.
   virtual bool abort(std::string_view by, TimePoint now) = 0;
-  // Cancel a job, or make it DONE. Both fail with not_found; wrong_mode if the job's state does not allow the event.
+  // Cancel a job, or make it DONE. Both fail with not_found; wrong_job_state if the job's state does not allow the
+  // event.
   virtual Result<void> cancel(JobNumber job, std::string_view by, TimePoint now) = 0;
   virtual Result<void> done(JobNumber job, std::string_view by, TimePoint now) = 0;
   // Moves a job forward. Fails as JobQueue::move_first() does.
   virtual Result<void> move_first(JobNumber job, Overtaken overtaken, std::string_view by, TimePoint now) = 0;
   // Performs an act by hand and voids the confirmation. Returns the longest time until the machine has performed this
-  // act and all acts before it; until then no job and no other step can start. Fails with wrong_mode if a job runs;
-  // link_down; axis_busy; and as Permission::authorize() and Model::longest() do.
+  // act and all acts before it; until then no job and no other step can start. Fails with wrong_job_state if a job
+  // runs; link_down; axis_busy; and as Permission::authorize() and Model::longest() do.
   virtual Result<Duration> operate(const HandAct& act, const use::RequestContext& by, TimePoint now) = 0;
 
   // Jobs that have not ended, in the order of the queue, with the running job.

@@ -32,11 +32,25 @@ Scope scope(const Words& settings, std::string_view key) {
   return is(settings, key, "axis") ? Scope::axis : Scope::controller;
 }
 
+constexpr std::array kCapabilities = {stage::Capability::move,
+                                      stage::Capability::home,
+                                      stage::Capability::return_to_origin,
+                                      stage::Capability::jog,
+                                      stage::Capability::path,
+                                      stage::Capability::arc,
+                                      stage::Capability::scan,
+                                      stage::Capability::saved_positions,
+                                      stage::Capability::settings,
+                                      stage::Capability::pins,
+                                      stage::Capability::trigger,
+                                      stage::Capability::commands};
+
 class Shrc203 final : public stage::Kind {
  public:
   std::string_view name() const override { return "shrc203"; }
   int axis_count() const override { return kAxisCount; }
   std::span<const stage::KindSetting> settings() const override { return kSettings; }
+  std::span<const stage::Capability> capabilities() const override { return kCapabilities; }
 
   std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const Words& settings, ByteLink& link,
                                                    EventSink& events, Permission& permission) const override {

@@ -1,6 +1,14 @@
 #include "device/stage/kind.h"
 
+#include <array>
+
 namespace axisgate::stage {
+
+std::span<const Capability> Kind::capabilities() const {
+  static constexpr std::array kUsual = {Capability::move, Capability::home, Capability::return_to_origin,
+                                        Capability::jog};
+  return kUsual;
+}
 
 std::vector<CommandInfo> Kind::commands() const { return {}; }
 

@@ -23,6 +23,22 @@
 
 namespace axisgate::stage {
 
+// Features of a stage. Its controller fails with not_allowed for each that it does not have.
+enum class Capability {
+  move,
+  home,
+  return_to_origin,
+  jog,
+  path,
+  arc,
+  scan,
+  saved_positions,
+  settings,
+  pins,
+  trigger,
+  commands,
+};
+
 // A KindSetting is a configuration key of the device's table that only this kind has.
 struct KindSetting {
   std::string_view key;
@@ -59,8 +75,10 @@ class Kind {
   // Reports whether checked lines move or change something. False if one of them is a stop, which never waits.
   virtual bool changes_something(const std::vector<std::string>&) const { return false; }
 
-  // The functions from here to read_position() are optional; by default a kind has none of these features.
-  virtual std::vector<CommandInfo> commands() const;  // in the manual's order
+  // The functions from here to read_position() are optional. By default a kind can move, home, return to the origin and
+  // jog, and has none of the other features.
+  virtual std::span<const Capability> capabilities() const;  // ascending
+  virtual std::vector<CommandInfo> commands() const;         // in the manual's order
 
   virtual std::span<const AdminCommand> admin_commands() const;
 

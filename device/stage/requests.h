@@ -146,13 +146,14 @@ struct ExecuteRequest {
 
 // An event of a transaction, in order: each line's reply, then each completion that the line caused, then the end.
 struct ExecuteEvent {
-  enum class Kind { reply, completion, ended };
+  enum class Kind { reply, completion, ended, motion };  // `motion` comes first, if at all
   Kind kind = Kind::reply;
   std::size_t line = 0;    // index into the request's lines
   std::string answer;      // the requested field, OK, NG ...
   std::string sent;        // line as sent
   std::string wire_reply;  // reply as received
   int axis = 0;            // axis of a completion
+  MotionId motion = 0;     // the motion of the lines
   std::optional<Problem> problem;
 };
 

@@ -233,7 +233,7 @@ Result<jobs::Job> ended_job(const spool::Spool& spool, const std::string& device
   jobs::Job job = job_of(*found);
   const Json facts = facts_in(*found);
   if (!found->ended) {
-    return fail(Reason::wrong_mode, fmt::format("{} has not ended", text_of(job)),
+    return fail(Reason::wrong_job_state, fmt::format("{} has not ended", text_of(job)),
                 "`axisctl mill queue` shows what can be done with it");
   }
   job.state = jobs::job_state_named(facts.value("ended_as", "")).value_or(jobs::JobState::cancelled);

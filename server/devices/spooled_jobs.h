@@ -30,7 +30,7 @@ void keep_facts(spool::Spool& spool, const std::string& device, const jobs::Job&
 // Keeps the ended job for some more time. Failures are logged; the job then returns as QUEUED in the next run.
 void end_spooled(spool::Spool& spool, const std::string& device, const jobs::Job& job);
 // Returns a job that has ended, with its final state; ABORTED and CANCELLED jobs include the known range of executed
-// bytes. Fails with not_found if the spool no longer has it, and with wrong_mode if it has not ended.
+// bytes. Fails with not_found if the spool no longer has it, and with wrong_job_state if it has not ended.
 Result<jobs::Job> ended_job(const spool::Spool& spool, const std::string& device, jobs::JobNumber number);
 
 // Returns a digest of the profile and the origin's position, with which a job is checked.

@@ -44,6 +44,7 @@ Json event_json(const stage::ExecuteEvent& event) {
             {"answer", event.answer},
             {"sent", event.sent},
             {"axis", event.axis},
+            {"motion", event.motion},
             {"wire_reply", event.wire_reply}};
   if (event.problem) json["problem"] = json_of(*event.problem);
   return json;
@@ -56,6 +57,7 @@ stage::ExecuteEvent event_of(const Json& json) {
                             .sent = json.at("sent"),
                             .wire_reply = json.at("wire_reply"),
                             .axis = json.at("axis"),
+                            .motion = json.value("motion", stage::MotionId{}),
                             .problem = {}};
   if (json.contains("problem")) event.problem = problem_of(json.at("problem"));
   return event;

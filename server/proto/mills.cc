@@ -218,6 +218,7 @@ v1::Device device_of(const api::MillState& state) {
   proto.set_link(open ? v1::LINK_STATE_UP : v1::LINK_STATE_DOWN);
   proto.set_link_problem(state.now->why_closed);
   proto.set_model(std::string(state.mill->config().model->name()));
+  proto.add_capabilities(v1::CAPABILITY_JOBS);
   return proto;
 }
 

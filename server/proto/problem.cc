@@ -16,7 +16,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
-static_assert(static_cast<int>(kLastReason) == v1::REASON_DAEMON_ENDING);
+static_assert(static_cast<int>(kLastReason) == v1::REASON_NOT_CONFIRMED);
 
 }  // namespace
 

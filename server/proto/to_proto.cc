@@ -13,14 +13,13 @@
 #include "server/proto/amounts.h"
 #include "server/proto/callers.h"
 #include "server/proto/mills.h"
+#include "server/proto/motions.h"
 #include "server/proto/problem.h"
 
 namespace axisgate::proto {
 namespace {
 
 using stage::LinkState;
-using stage::MotionKind;
-using stage::MotionState;
 
 v1::LinkState to_link_state(LinkState state) {
   static_assert(static_cast<int>(LinkState::down) + 1 == v1::LINK_STATE_DOWN);
@@ -29,19 +28,6 @@ v1::LinkState to_link_state(LinkState state) {
   static_assert(static_cast<int>(LinkState::doubtful) + 1 == v1::LINK_STATE_DOUBTFUL);
   static_assert(static_cast<int>(LinkState::babbling) + 1 == v1::LINK_STATE_BABBLING);
   return static_cast<v1::LinkState>(static_cast<int>(state) + 1);
-}
-
-v1::MotionKind to_motion_kind(MotionKind kind) {
-  static_assert(static_cast<int>(MotionKind::move) + 1 == v1::MOTION_KIND_MOVE);
-  static_assert(static_cast<int>(MotionKind::scan) + 1 == v1::MOTION_KIND_SCAN);
-  return static_cast<v1::MotionKind>(static_cast<int>(kind) + 1);
-}
-
-v1::MotionState to_motion_state(MotionState state) {
-  static_assert(static_cast<int>(MotionState::queued) + 1 == v1::MOTION_STATE_QUEUED);
-  static_assert(static_cast<int>(MotionState::succeeded) + 1 == v1::MOTION_STATE_SUCCEEDED);
-  static_assert(static_cast<int>(MotionState::unknown) + 1 == v1::MOTION_STATE_UNKNOWN);
-  return static_cast<v1::MotionState>(static_cast<int>(state) + 1);
 }
 
 void fill_stage(int number, const stage::Profile& profile, const stage::State& state, v1::Axis& axis) {
@@ -131,24 +117,6 @@ void fill_stops(const std::string& device, const stage::State& state, v1::Device
   if (!state.emergency) return;
   *proto.mutable_emergency_latch()->mutable_caller() = to_caller(state.emergency->who);
   *proto.mutable_emergency_latch()->mutable_request_time() = to_proto(server::to_wall(state.emergency->at));
-}
-
-v1::Scan to_scan(const stage::ScanResult& scan, int axis, const Shown& shown) {
-  v1::Scan proto;
-  proto.set_run_from_pulses(scan.run_from);
-  proto.set_run_to_pulses(scan.run_to);
-  proto.set_run_from(shown.text(axis, scan.run_from));
-  proto.set_run_to(shown.text(axis, scan.run_to));
-  if (scan.expected) proto.set_expected_triggers(*scan.expected);
-  if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
-  if (scan.observed) proto.set_observed_triggers(*scan.observed);
-  return proto;
-}
-
-void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Moment& clock) {
-  *proto.mutable_create_time() = to_proto(clock.at(motion.created));
-  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(clock.at(motion.started));
-  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(clock.at(motion.ended));
 }
 
 // An EventFiller writes each type of fact to its field of an Event.
@@ -292,6 +260,10 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   proto.set_firmware(escaped(state.firmware));
   proto.set_mode(to_mode(state.mode));
   proto.set_format(to_format(state.format));
+  for (const stage::Capability capability : device.kind().capabilities()) {
+    static_assert(static_cast<int>(stage::Capability::commands) + 1 == v1::CAPABILITY_COMMANDS);
+    proto.add_capabilities(static_cast<v1::Capability>(static_cast<int>(capability) + 1));
+  }
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
   for (int number = 1; number <= device.kind().axis_count(); ++number) {
@@ -304,55 +276,6 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   proto.set_moving_unknown(state.moving_unknown);
   fill_stops(device.name(), state, proto);
   fill_age(state.read, proto);
-  return proto;
-}
-
-v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
-                    const server::Moment& clock, const Shown& shown) {
-  v1::Motion proto;
-  proto.set_name(api::motion_name(device, motion.id));
-  proto.set_kind(to_motion_kind(motion.kind));
-  proto.set_state(to_motion_state(motion.state));
-  for (const int axis : motion.axes.list()) proto.add_axes(axis);
-  for (const stage::AxisResult& result : motion.results) {
-    v1::AxisResult& one = *proto.add_results();
-    one.set_axis(result.axis);
-    if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
-    if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
-    one.set_completion_seen(result.completion_seen);
-    shown.describe(result.axis, one);
-    one.set_target(shown.text(result.axis, result.target_pulses));
-    one.set_position(shown.text(result.axis, result.command_pulses));
-  }
-  if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
-  proto.set_revision(revision);
-  set_times(proto, motion, clock);
-  *proto.mutable_caller() = to_caller(motion.who);
-  proto.set_request_id(motion.request_id);
-  proto.set_segments_total(motion.segments_total);
-  proto.set_segments_done(motion.segments_done);
-  proto.set_underruns(motion.underruns);
-  if (motion.scan) {
-    *proto.mutable_scan() = to_scan(*motion.scan, motion.axes.list().front(), shown);
-  }
-  return proto;
-}
-
-v1::Motion to_proto(const api::CurrentMotion& motion) {
-  v1::Motion proto = to_proto(motion.stage->name(), motion.motion, motion.revision, motion.clock, Shown(motion.stage));
-  proto.set_repeated(motion.is_repeated);
-  return proto;
-}
-
-v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress) {
-  using Step = stage::PathProgress::Step;
-  static_assert(static_cast<int>(Step::sent) + 1 == v1::PathProgress::STEP_SENT);
-  static_assert(static_cast<int>(Step::underrun) + 1 == v1::PathProgress::STEP_UNDERRUN);
-  v1::PathProgress proto;
-  proto.set_motion(api::motion_name(device, progress.motion));
-  proto.set_step(static_cast<v1::PathProgress::Step>(static_cast<int>(progress.step) + 1));
-  proto.set_segment(progress.segment);
-  proto.set_wire_reply(escaped(progress.wire_reply));
   return proto;
 }
 

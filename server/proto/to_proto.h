@@ -9,10 +9,8 @@
 
 #include "axisgate/v1/device.pb.h"
 #include "axisgate/v1/event.pb.h"
-#include "axisgate/v1/motion.pb.h"
 #include "axisgate/v1/stage.pb.h"
 #include "device/stage/stage_controller.h"
-#include "server/api/request/motion_watch.h"
 #include "server/api/stage/stops.h"
 #include "server/devices/stage.h"
 #include "server/events/event_bus.h"
@@ -27,14 +25,6 @@ void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 
 // Includes the age of the state at the time of the call.
 v1::Device to_proto(const server::Stage& device, const stage::State& state);
-
-// `revision` is that of the newest fact about the motion, 0 if unknown. `clock` converts the motion's times to wall
-// time. `shown` is that of the motion's stage.
-v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
-                    const server::Moment& clock, const Shown& shown);
-v1::Motion to_proto(const api::CurrentMotion& motion);
-
-v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
 
 v1::Condition to_condition(stage::Condition condition);
 

@@ -1,6 +1,12 @@
 #include "server/proto/tokens.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
+
+#include "server/events/wall_time.h"
+#include "server/proto/pages.h"
 
 namespace axisgate::proto {
 namespace {
@@ -24,6 +30,19 @@ v1::Token to_proto(const Token& token) {
   fill(*proto.mutable_expire_time(), token.expires);
   if (token.revoked) fill(*proto.mutable_revoke_time(), *token.revoked);
   return proto;
+}
+
+void fill_page(const v1::ListTokensRequest& request, std::vector<Token> tokens, v1::ListTokensResponse& response) {
+  if (request.valid_only()) {
+    const Calendar now = server::calendar_now();
+    std::erase_if(tokens, [&](const Token& token) { return !token.good(now); });
+  }
+  const auto key = [](const Token& token) {
+    return fmt::format("{:020} {}", token.created.time_since_epoch().count(), token.name);
+  };
+  std::ranges::sort(tokens, {}, key);
+  response.set_next_page_token(cut_page(tokens, request.page_size(), request.page_token(), key));
+  for (const Token& token : tokens) *response.add_tokens() = to_proto(token);
 }
 
 Result<api::NewToken> to_new_token(const v1::CreateTokenRequest& request) {

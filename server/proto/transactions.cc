@@ -1,5 +1,7 @@
 #include "server/proto/transactions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 
@@ -25,8 +27,12 @@ api::Transaction to_transaction(const v1::ExecuteRequest& request) {
   return transaction;
 }
 
-v1::ExecuteResponse to_response(const stage::ExecuteEvent& event) {
+v1::ExecuteResponse to_response(std::string_view device, const stage::ExecuteEvent& event) {
   v1::ExecuteResponse response;
+  if (event.kind == stage::ExecuteEvent::Kind::motion) {
+    response.set_motion(fmt::format("{}/motions/{}", device, event.motion));
+    return response;
+  }
   if (event.kind == stage::ExecuteEvent::Kind::completion) {
     response.set_completion(event.axis);
     return response;

@@ -1,6 +1,8 @@
 // Conversion of transactions of a caller's own lines from and to messages.
 #pragma once
 
+#include <string_view>
+
 #include "axisgate/v1/command.pb.h"
 #include "device/stage/command_info.h"
 #include "device/stage/stage_controller.h"
@@ -11,7 +13,7 @@ namespace axisgate::proto {
 api::Transaction to_transaction(const v1::ExecuteRequest& request);
 
 // `event` is not the end of the transaction. The device's texts are escaped in the result.
-v1::ExecuteResponse to_response(const stage::ExecuteEvent& event);
+v1::ExecuteResponse to_response(std::string_view device, const stage::ExecuteEvent& event);
 
 v1::Command to_proto(const stage::CommandInfo& info);
 

@@ -145,7 +145,7 @@ TEST_F(EchoMachineTest, RefusesJobsThatItsOwnCheckRefuses) {
 TEST_F(EchoMachineTest, StartsNothingThatNobodyHasConfirmed) {
   const Result<CurrentJob> sent = send("one\n");
   ASSERT_TRUE(sent);
-  EXPECT_EQ(start(sent->job.number).error().reason, Reason::not_allowed);
+  EXPECT_EQ(start(sent->job.number).error().reason, Reason::not_confirmed);
   EXPECT_EQ(count(), "0");
 }
 

@@ -24,7 +24,7 @@ Result<void> EchoMachine::confirm(jobs::JobNumber job, const jobs::JobSetup& see
 }
 
 Result<void> EchoMachine::check_startable(jobs::JobNumber number, TimePoint now) {
-  if (run_) return fail(Reason::wrong_mode, "another job runs", "wait until it has ended");
+  if (run_) return fail(Reason::wrong_job_state, "another job runs", "wait until it has ended");
   return queue_.find(number).and_then(
       [&](const jobs::Job* job) { return check_open().and_then([&] { return confirmations_.check(*job, now); }); });
 }
@@ -43,14 +43,15 @@ Result<void> EchoMachine::start(jobs::JobNumber number, std::shared_ptr<const jo
 }
 
 Result<void> EchoMachine::pause(bool raise, TimePoint now) {
-  if (!run_ || raise) return fail(Reason::wrong_mode, "no job is being sent, or there is no tool to raise", "wait");
+  if (!run_ || raise)
+    return fail(Reason::wrong_job_state, "no job is being sent, or there is no tool to raise", "wait");
   run_->paused = true;
   events_.sender_changed(view(), now);
   return {};
 }
 
 Result<void> EchoMachine::resume(const use::RequestContext& by, TimePoint now) {
-  if (!run_ || !run_->paused) return fail(Reason::wrong_mode, "no job is paused", "start one");
+  if (!run_ || !run_->paused) return fail(Reason::wrong_job_state, "no job is paused", "start one");
   if (const Result<void> can = rights_.authorize(by, run_->number, now); !can) return can;
   run_->paused = false;
   events_.sender_changed(view(), now);
@@ -63,7 +64,7 @@ Result<void> EchoMachine::choose_rest(jobs::JobNumber number, const jobs::JobRes
   const Result<jobs::Job*> job = queue_.find(number);
   if (!job) return tl::unexpected(job.error());
   if (!jobs::next((*job)->state, jobs::JobEvent::choose_rest)) {
-    return fail(Reason::wrong_mode, "the job is not paused", "start it");
+    return fail(Reason::wrong_job_state, "the job is not paused", "start it");
   }
   (*job)->setup.from = rest.from;
   queue_.change(**job, jobs::JobEvent::choose_rest, by, "it continues at a line", now);

@@ -110,7 +110,7 @@ class MillJobs(unittest.TestCase):
         sent = self.run_well("send", str(file), device="quick")
         number = re.fullmatch(r"job (\d+) \(lid\.rml\) QUEUED; takes .+\n", sent)[1]
         self.assertRegex(self.run_well("queue", device="quick"), rf"(?m)^{number} +lid\.rml +unix \S+ +QUEUED +T1 +panel ")
-        self.refused("NOT_ALLOWED", "start", number, device="quick")
+        self.refused("NOT_CONFIRMED", "start", number, device="quick")
         self.refused("a person at the mill must confirm", "confirm", code=2, device="quick")
         confirmed = self.run_well("confirm", "--yes", device="quick")
         self.assertRegex(confirmed, r"\n  tool      T1\n  origin    as it is set at the panel\n")
@@ -158,7 +158,7 @@ class MillJobs(unittest.TestCase):
         executed = rf"job {number} \(frame\) was aborted: by the mill's profile (what was executed ends (at|between) line .*)"
         history = self.daemon.run("--device", "mill", "history").stdout
         self.assertIn(re.search(executed, queue)[1], history)
-        self.refused("NOT_ALLOWED", "start")  # the next one is not confirmed by that
+        self.refused("NOT_CONFIRMED", "start")  # the next one is not confirmed by that
 
     def test_the_history_has_what_became_of_a_job(self):
         number = self.send(SMALL)
@@ -178,10 +178,10 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it, up to .* s and \d+ mm, "
                                                  r"still run.*; the cutter keeps turning in the cut\n\Z")
         self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) PAUSED \[")
-        self.refused(f"WRONG_MODE: job {number} is paused already", "pause")
+        self.refused(f"WRONG_JOB_STATE: job {number} is paused already", "pause")
         self.assertRegex(self.run_well("resume"), rf"\Ajob {number} is resumed; ")
         self.await_queue(rf"\njob {number} \(frame\) SENDING \[")
-        self.refused("WRONG_MODE", "resume")
+        self.refused("WRONG_JOB_STATE", "resume")
         self.run_well("abort")
 
     def test_what_went_over_the_line_is_recorded(self):
@@ -200,7 +200,7 @@ class MillJobs(unittest.TestCase):
         stepped = self.run_well("jog", "x=5", "Z=-0.5mm")
         self.assertRegex(stepped, r"the step, unchecked .*, was sent; by its profile the mill has done it within \d+\.\d s\n")
         self.refused("AXIS_BUSY: the mill may still do what it was sent by hand", "jog", "y=1")
-        self.refused("NOT_ALLOWED.* is no longer confirmed at the mill, since ", "start")
+        self.refused("NOT_CONFIRMED.* is no longer confirmed at the mill, since ", "start")
         self.refused("a step of 6 mm down is too long", "jog", "z=-6")
         self.refused("\"5\" is not an axis and a distance .*x=5", "jog", "5", code=2)
         self.refused("\"a=5\" is not an axis and a distance", "jog", "a=5", code=2)
@@ -218,7 +218,7 @@ class MillJobs(unittest.TestCase):
         self.assertEqual(self.run_well("cancel", first), f"job {first} is CANCELLED\n")
         self.assertEqual(re.findall(r"(?m)^(\d+) ", self.run_well("queue")), [second])
         self.refused("NOT_FOUND", "cancel", first)
-        self.refused("WRONG_MODE", "done", second)
+        self.refused("WRONG_JOB_STATE", "done", second)
 
     def test_the_job_of_another_person_waits(self):
         running, mine = self.start_long(), self.send(SMALL)
@@ -228,7 +228,7 @@ class MillJobs(unittest.TestCase):
         queue = self.run_well("queue")
         self.assertEqual(re.findall(r"(?m)^(\d+) ", queue), [running, mine, theirs])
         self.assertRegex(queue, rf"(?m)^{theirs} +lid +tcp 127\.0\.0\.1\S* +QUEUED ")
-        self.refused("WRONG_MODE", "confirm", theirs, "--yes")
+        self.refused("WRONG_JOB_STATE", "confirm", theirs, "--yes")
         refused = self.run_as_stranger("cancel", mine)
         self.assertEqual(refused.returncode, 3)
         self.assertRegex(refused.stderr, "NOT_ALLOWED")

@@ -96,8 +96,8 @@ class MillParts(unittest.TestCase):
         self.assertRegex(self.run_part(), rf"\njob {number} \(frame\) TOOL_CHANGE: part 1 of 2 was sent, .*; put in the "
                                           rf"tool T3, set Z0, then `axisctl mill confirm {number} --start`\n\Z")
         self.assertRegex(self.await_queue("TOOL_CHANGE"), rf"no job runs\n.*\n{number} .* TOOL_CHANGE +part 2 of 2, T3 ")
-        self.refused(rf"WRONG_MODE: job {number} .* its next tool is T3", "confirm", other, "--yes")
-        self.refused("NOT_ALLOWED", "start")
+        self.refused(rf"WRONG_JOB_STATE: job {number} .* its next tool is T3", "confirm", other, "--yes")
+        self.refused("NOT_CONFIRMED", "start")
         confirmed = self.run_well("confirm", "--yes")
         self.assertRegex(confirmed, r"\n  part      2 of 2\n  tool      T3\n")
         self.assertRegex(self.run_well("start", "--follow"), rf"\njob {number} \(frame\) FED: ")
@@ -130,7 +130,7 @@ class MillParts(unittest.TestCase):
         least, most = (int(queue["jobs"][0][end]) for end in ("sent_least", "sent_most"))
         self.assertEqual(least, len(SMALL))  # the first part
         self.assertLess(most, len(SMALL) + len(LONG))
-        self.refused("WRONG_MODE", "confirm", number, "--yes")
+        self.refused("WRONG_JOB_STATE", "confirm", number, "--yes")
         self.run_well("cancel", number)
 
     def test_what_is_not_sent_into_the_queue(self):

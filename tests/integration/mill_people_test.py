@@ -88,18 +88,18 @@ class TwoPeople(unittest.TestCase):
         self.well("bert", "history", "job 2 is DONE")
 
     def only_who_stands_there_confirms(self):
-        self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is not confirmed")
+        self.refused("anna", "mill start 1", "NOT_CONFIRMED: job 1 .* is not confirmed")
         self.refused("anna", "mill confirm 1 --yes", "NOT_ALLOWED: token anna is not at the station of mill")
-        self.refused("bert", "mill confirm 2 --yes", "WRONG_MODE: job 1 .* is before job 2")
+        self.refused("bert", "mill confirm 2 --yes", "WRONG_JOB_STATE: job 1 .* is before job 2")
         self.well("bert", "mill confirm 1 --yes", "job 1 .* is confirmed by unix")
-        self.refused("bert", "mill start 2", "NOT_ALLOWED: job 2 .* is not confirmed")
+        self.refused("bert", "mill start 2", "NOT_CONFIRMED: job 2 .* is not confirmed")
         self.well("bert", "mill jog x=1", "the step, unchecked")
-        self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is no longer confirmed at the mill, since ")
+        self.refused("anna", "mill start 1", "NOT_CONFIRMED: job 1 .* is no longer confirmed at the mill, since ")
         if EXPIRE:
             self.well("bert", "mill confirm 1 --yes")
             self.show("    (a minute later)")
             self.until(r"(?m)^1 .* QUEUED ", 60 + LIMIT_S)  # `confirmation_minutes` counts real time
-            self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is no longer confirmed at the mill, since ")
+            self.refused("anna", "mill start 1", "NOT_CONFIRMED: job 1 .* is no longer confirmed at the mill, since ")
 
     def a_pause_and_an_abort(self):
         self.well("bert", "mill confirm 1 --yes")
@@ -107,8 +107,8 @@ class TwoPeople(unittest.TestCase):
         while "AXIS_BUSY: the mill may still do what it was sent by hand" in (said := self.type("anna", "mill start 1")[1]):
             self.assertLess(time.monotonic(), deadline)
         self.assertRegex(said, r"job 1 .* RUNNING; .* after an abort at most 64 bytes, up to .* s and \d+ mm, run on")
-        self.refused("bert", "mill confirm 2 --yes", "WRONG_MODE: job 1 runs")
-        self.refused("bert", "mill jog z=1", "WRONG_MODE: job 1 runs")
+        self.refused("bert", "mill confirm 2 --yes", "WRONG_JOB_STATE: job 1 runs")
+        self.refused("bert", "mill jog z=1", "WRONG_JOB_STATE: job 1 runs")
         self.well("bert", "mill pause", "job 1 is paused: .* still run.*the cutter keeps turning in the cut")
         self.well("anna", "mill resume", "job 1 is resumed")
         self.well("bert", "mill abort",
@@ -118,11 +118,11 @@ class TwoPeople(unittest.TestCase):
     def a_tool_change(self):
         self.well("bert", "mill confirm 2 --yes", "tool +T1")
         self.well("bert", "mill start 2 --follow", "TOOL_CHANGE")
-        self.refused("bert", "mill start 2", "NOT_ALLOWED: job 2 .* is not confirmed")
-        self.refused("bert", "mill confirm 3 --yes", "WRONG_MODE: job 2 .* is not finished: its next tool is T2")
+        self.refused("bert", "mill start 2", "NOT_CONFIRMED: job 2 .* is not confirmed")
+        self.refused("bert", "mill confirm 3 --yes", "WRONG_JOB_STATE: job 2 .* is not finished: its next tool is T2")
         self.well("bert", "mill confirm 2 --yes", "tool +T2")
         self.well("bert", "mill start 2 --follow", "FED")
-        self.refused("bert", "mill confirm 3 --yes", "WRONG_MODE: job 2 .* is FED")
+        self.refused("bert", "mill confirm 3 --yes", "WRONG_JOB_STATE: job 2 .* is FED")
         self.well("bert", "mill done 2", "job 2 is DONE")
 
     def a_take_over(self):
@@ -134,7 +134,7 @@ class TwoPeople(unittest.TestCase):
         held = Lines(words + self.command("anna", "--device", "mill", "mill", "start", "3", "--follow"))
         self.addCleanup(held.kill)
         self.until("SENDING")
-        self.refused("bert", "mill cancel 3", "WRONG_MODE: job 3 .* is RUNNING")
+        self.refused("bert", "mill cancel 3", "WRONG_JOB_STATE: job 3 .* is RUNNING")
         self.well("bert", "--device mill lease run --take-over -- true")
         self.until("no job runs")
         held.end()

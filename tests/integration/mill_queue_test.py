@@ -104,7 +104,7 @@ class AQueueAmongPeople(Queue):
         self.well("bert", "mill", "confirm", "4", "--yes")
         self.well("bert", "mill", "first", "1")
         self.assertEqual(self.order(), [4, 1, 3, 2], "what is confirmed is not overtaken")
-        self.refused("bert", "WRONG_MODE: job 4 .* is CONFIRMED .only a job that is QUEUED", "mill", "first", "4")
+        self.refused("bert", "WRONG_JOB_STATE: job 4 .* is CONFIRMED .only a job that is QUEUED", "mill", "first", "4")
         self.refused("bert", "NOT_FOUND: there is no job 9", "mill", "first", "9")
         history = self.well("bert", "history")
         self.assertRegex(history, "job 3 is QUEUED: moved before the other jobs of its owner, by token anna")

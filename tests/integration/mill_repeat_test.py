@@ -119,7 +119,7 @@ class MillRepeat(unittest.TestCase):
 
     def test_an_ended_job_again(self):
         first = self.send(SMALL, "--tool", "T2", "--origin", "vice", "--stock", "50,50,5")
-        self.refused(rf"WRONG_MODE: job {first} .* has not ended", "again", first)
+        self.refused(rf"WRONG_JOB_STATE: job {first} .* has not ended", "again", first)
         self.finish(first)
         self.assertRegex(self.run_well("again", first), rf"\Ajob {int(first) + 1} \(frame\) QUEUED; takes ")
         queue = json.loads(self.daemon.run("--json", "mill", "queue").stdout)
@@ -157,7 +157,7 @@ class MillRepeat(unittest.TestCase):
         # Line 1995 has the vector 1994; above the end of the one before it the tool goes down.
         self.assertEqual(came, [1993, 1994, 1995, 1996, 1997, 1998, 1999, 2000])
         self.run_well("done")
-        self.refused(r"WRONG_MODE: job 2 .* is DONE: it has no rest", "send", "--rest-of", "2", "--from", "3")
+        self.refused(r"WRONG_JOB_STATE: job 2 .* is DONE: it has no rest", "send", "--rest-of", "2", "--from", "3")
 
     def test_the_rest_keeps_its_place_over_a_kill(self):
         first = self.abort_long()
@@ -185,7 +185,7 @@ class MillRepeat(unittest.TestCase):
 
     def test_what_no_job_goes_on_with(self):
         rough = self.send(ROUGH)
-        self.refused(rf"WRONG_MODE: job {rough} .* has not ended", "send", "-", "--continues", rough, stdin=ROUGH)
+        self.refused(rf"WRONG_JOB_STATE: job {rough} .* has not ended", "send", "-", "--continues", rough, stdin=ROUGH)
         self.finish(rough)
         for options, why in ((["--origin", "vice"], "had the origin of the panel, and this job has the origin vice"),
                              (["--stock", "50,50,5"], "had no stock, and this job has a stock of 50 x 50 x 5 mm")):
@@ -193,7 +193,7 @@ class MillRepeat(unittest.TestCase):
         self.refused("sets Z0 itself", "send", "-", "--continues", rough, stdin="!ZO-400;" + ROUGH)
         number = self.send(ROUGH, "--continues", rough)
         self.run_well("origin", "vice")
-        self.refused(rf"STALE_SETPOINT: Z0 was sent to the mill since job {rough} began, and job {number} ", "confirm",
+        self.refused(rf"SETUP_CHANGED: Z0 was sent to the mill since job {rough} began, and job {number} ", "confirm",
                      "--yes")
         self.run_well("cancel", number)
         self.refused(rf"Z0 was sent to the mill since job {rough} began", "send", "-", "--continues", rough, stdin=ROUGH)

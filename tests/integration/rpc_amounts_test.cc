@@ -70,7 +70,7 @@ TEST_F(RpcAmounts, AnAxisHasItsNameAndItsNumber) {
   both.mutable_targets(1)->set_axis("z");
   const grpc::Status unknown = move(both);
   EXPECT_EQ(reason(unknown), v1::REASON_UNKNOWN_AXIS);
-  EXPECT_NE(unknown.error_message().find("x is axis 1, y is axis 2"), std::string::npos) << unknown.error_message();
+  EXPECT_EQ(problem(unknown).hint(), "x is axis 1, y is axis 2");
 }
 
 TEST_F(RpcAmounts, TheTriggerTakesADistanceOrATime) {

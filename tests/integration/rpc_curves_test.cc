@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "server/api/stage/paths.h"
+#include "server/proto/motions.h"
 #include "server/proto/targets.h"
-#include "server/proto/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

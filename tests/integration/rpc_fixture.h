@@ -1,6 +1,7 @@
 // A whole gateway inside the test: built-in simulator, services, and a client on its Unix socket.
 #pragma once
 
+#include <google/rpc/status.pb.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
@@ -171,12 +172,14 @@ class RpcTest : public ::testing::Test {
     return status;
   }
 
-  static v1::Reason reason(const grpc::Status& status) {
-    v1::ErrorStatus details;
+  static v1::Problem problem(const grpc::Status& status) {
+    google::rpc::Status details;
     v1::Problem problem;
-    if (!details.ParseFromString(status.error_details()) || details.details_size() == 0) return v1::REASON_UNSPECIFIED;
-    return problem.ParseFromString(details.details(0).value()) ? problem.reason() : v1::REASON_UNSPECIFIED;
+    if (!details.ParseFromString(status.error_details()) || details.details_size() == 0) return problem;
+    problem.ParseFromString(details.details(0).value());
+    return problem;
   }
+  static v1::Reason reason(const grpc::Status& status) { return problem(status).reason(); }
 
   server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());

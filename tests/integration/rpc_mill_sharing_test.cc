@@ -193,9 +193,9 @@ TEST_F(RpcMill, AJobIsMovedToTheFrontOnce) {
   ASSERT_EQ(moved(third.name(), "move-1", &response), v1::REASON_UNSPECIFIED) << "it came before";
   EXPECT_EQ(response.job().name(), third.name());
   EXPECT_THAT(order(), testing::ElementsAre(second.name(), third.name(), first.name()));
-  EXPECT_EQ(reason(confirm(third)), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(reason(confirm(third)), v1::REASON_WRONG_JOB_STATE);
   ASSERT_TRUE(confirm(second).ok());
-  EXPECT_EQ(moved(second.name(), "move-3"), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(moved(second.name(), "move-3"), v1::REASON_WRONG_JOB_STATE);
   EXPECT_EQ(moved("devices/mill/jobs/99", "move-4"), v1::REASON_NOT_FOUND);
 }
 
@@ -267,7 +267,7 @@ TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
   EXPECT_GT(first.longest_time().seconds(), 0);
   ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &again).ok()) << "the answer of the first";
   EXPECT_EQ(again.longest_time().seconds(), first.longest_time().seconds());
-  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_CONFIRMED);
   v1::OperateMillRequest named;
   named.set_device(kMill);
   named.mutable_surface()->set_origin("vice");
@@ -308,7 +308,7 @@ TEST_F(RpcMillElsewhere, OnlySomebodyAtTheStationConfirms) {
   const v1::Job job = sent(vectors(4));
   const grpc::Status status = confirm(job);
   EXPECT_EQ(reason(status), v1::REASON_NOT_ALLOWED);
-  EXPECT_THAT(status.error_message(), HasSubstr("cert workshop"));
+  EXPECT_THAT(problem(status).hint(), HasSubstr("cert workshop"));
 }
 
 }  // namespace

@@ -40,21 +40,21 @@ TEST_F(RpcMill, AConfirmedJobIsFedAndAPersonSaysDone) {
 
 TEST_F(RpcMill, WithoutAConfirmationItDoesNotStart) {
   const v1::Job job = sent(vectors(6));
-  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_CONFIRMED);
   v1::Job other = job;
   other.mutable_setup()->set_tool("T2");
-  EXPECT_EQ(reason(confirm(other)), v1::REASON_STALE_SETPOINT);
+  EXPECT_EQ(reason(confirm(other)), v1::REASON_SETUP_CHANGED);
 }
 
 // The worker reads no job in vain, so no other caller waits for that.
 TEST_F(RpcMill, WhatCannotStartOrContinueIsNotRead) {
   const v1::Job job = sent(vectors(6));
   std::ofstream(directory_ + ".spool/mill/1.rml", std::ios::app) << "PU;";
-  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_CONFIRMED);
   v1::ContinueJobRequest request;
   request.set_job(job.name());
   request.set_line(1);
-  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_JOB_STATE);
   ASSERT_TRUE(confirm(job).ok());
   EXPECT_EQ(reason(start(job)), v1::REASON_INTERNAL) << "its bytes are others than they were";
 }
@@ -135,7 +135,7 @@ TEST_F(RpcMill, TheToolIsChangedBetweenTheParts) {
   EXPECT_EQ(next.setup().digest(), job.setup().digest());
   ASSERT_TRUE(send_parts({{"T1", vectors(1)}, {"T2", vectors(2)}}, &again).ok());
   EXPECT_EQ(again.name(), job.name()) << "the same request";
-  EXPECT_EQ(reason(confirm(job)), v1::REASON_STALE_SETPOINT) << "T1 was seen";
+  EXPECT_EQ(reason(confirm(job)), v1::REASON_SETUP_CHANGED) << "T1 was seen";
   ASSERT_TRUE(confirm(next).ok());
   ASSERT_TRUE(start(next).ok());
   watch_until(job_is(job, v1::JOB_STATE_FED));
@@ -159,14 +159,14 @@ TEST_F(RpcMill, AnAbortEndsTheJobAndVoidsTheNextConfirmation) {
   ASSERT_TRUE(confirm(job).ok());
   ASSERT_TRUE(start(job).ok());
   watch_until([](const v1::Mill& mill) { return mill.running().executed_least() > 20; });
-  EXPECT_EQ(reason(confirm(second)), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(reason(confirm(second)), v1::REASON_WRONG_JOB_STATE);
   const grpc::Status aborted = on_mill(&v1::MillService::Stub::AbortJob);
   ASSERT_TRUE(aborted.ok()) << aborted.error_message();
   const v1::Mill mill = watch_until([](const v1::Mill& it) { return !it.has_running() && it.jobs_size() == 1; });
   EXPECT_EQ(mill.jobs(0).name(), second.name());
   ASSERT_TRUE(confirm(second).ok());
   ASSERT_TRUE(on_mill(&v1::MillService::Stub::AbortJob).ok()) << "it always acts";
-  EXPECT_EQ(reason(start(second)), v1::REASON_NOT_ALLOWED);
+  EXPECT_EQ(reason(start(second)), v1::REASON_NOT_CONFIRMED);
 }
 
 TEST_F(RpcMill, AStopOfAnAxisIsOfTheOnlyStage) {
@@ -202,7 +202,7 @@ TEST_F(RpcMill, ItIsAmongTheDevices) {
 
 TEST_F(RpcMill, PauseAndResume) {
   const v1::Job job = sent(vectors(6));
-  EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::PauseJob)), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::PauseJob)), v1::REASON_WRONG_JOB_STATE);
   ASSERT_TRUE(confirm(job).ok());
   ASSERT_TRUE(start(job).ok());
   ASSERT_TRUE(on_mill(&v1::MillService::Stub::PauseJob).ok());
@@ -228,8 +228,8 @@ TEST_F(RpcMill, APausedJobWithTheToolUpIsConfirmedAndGoesOn) {
   EXPECT_EQ(rest.setup().from().byte(), paused.running().written());
   EXPECT_EQ(rest.setup().from().line(), 1);
   EXPECT_EQ(rest.setup().from().column(), rest.setup().from().byte() + 1);
-  EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::ResumeJob)), v1::REASON_WRONG_MODE);
-  EXPECT_EQ(reason(confirm(job)), v1::REASON_STALE_SETPOINT) << "seen from its beginning";
+  EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::ResumeJob)), v1::REASON_WRONG_JOB_STATE);
+  EXPECT_EQ(reason(confirm(job)), v1::REASON_SETUP_CHANGED) << "seen from its beginning";
   ASSERT_TRUE(confirm(rest).ok());
   ASSERT_TRUE(start(rest).ok());
   watch_until(job_is(job, v1::JOB_STATE_FED));
@@ -240,7 +240,8 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   v1::ContinueJobRequest request;
   request.set_job(job.name());
   request.set_line(3);
-  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_MODE) << "it has not begun";
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_JOB_STATE)
+      << "it has not begun";
   ASSERT_TRUE(confirm(job).ok());
   ASSERT_TRUE(start(job).ok());
   v1::PauseJobRequest pause;

@@ -1,3 +1,5 @@
+#include <google/rpc/error_details.pb.h>
+#include <google/rpc/status.pb.h>
 #include <gtest/gtest.h>
 
 #include "axisgate/v1/common.pb.h"
@@ -58,6 +60,9 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::request_memory_lost, grpc::FAILED_PRECONDITION},
       {Reason::stop_unconfirmed, grpc::FAILED_PRECONDITION},
       {Reason::daemon_ending, grpc::UNAVAILABLE},
+      {Reason::wrong_job_state, grpc::FAILED_PRECONDITION},
+      {Reason::setup_changed, grpc::FAILED_PRECONDITION},
+      {Reason::not_confirmed, grpc::FAILED_PRECONDITION},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(v1::Reason_ARRAYSIZE));
@@ -75,8 +80,8 @@ TEST(Status, CarriesProblemAndErrorInfoInItsDetails) {
   const Problem problem{Reason::device_refused, "axis 2 was refused", "excite it", 2, "M:2+P5", "NG\x01"};
   const grpc::Status status = to_status(problem, {{"resume_revision", "7"}});
   EXPECT_EQ(status.error_code(), grpc::FAILED_PRECONDITION);
-  EXPECT_EQ(status.error_message(), "axis 2 was refused; excite it");
-  v1::ErrorStatus details;
+  EXPECT_EQ(status.error_message(), "axis 2 was refused");
+  google::rpc::Status details;
   ASSERT_TRUE(details.ParseFromString(status.error_details()));
   EXPECT_EQ(details.code(), 9);
   ASSERT_EQ(details.details_size(), 2);
@@ -89,7 +94,7 @@ TEST(Status, CarriesProblemAndErrorInfoInItsDetails) {
   EXPECT_EQ(detail.wire_reply(), "NG\\x01");
   EXPECT_EQ(detail.metadata().at("resume_revision"), "7");
   EXPECT_EQ(details.details(1).type_url(), "type.googleapis.com/google.rpc.ErrorInfo");
-  v1::ErrorInfo info;
+  google::rpc::ErrorInfo info;
   ASSERT_TRUE(info.ParseFromString(details.details(1).value()));
   EXPECT_EQ(info.reason(), "DEVICE_REFUSED");
   EXPECT_EQ(info.domain(), "axisgate");

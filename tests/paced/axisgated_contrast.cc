@@ -27,6 +27,7 @@ class Contrast final : public stage::Kind {
   std::string_view name() const override { return "shrc203"; }
   int axis_count() const override { return shrc203::kind().axis_count(); }
   std::span<const stage::KindSetting> settings() const override { return shrc203::kind().settings(); }
+  std::span<const stage::Capability> capabilities() const override { return shrc203::kind().capabilities(); }
   std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const Words&, ByteLink& link,
                                                           stage::EventSink& events,
                                                           use::Permission& permission) const override {

@@ -170,7 +170,7 @@ void BadLine::bring_line_back() {
   if (std::exchange(abort_outstanding_, false)) executed_.flow_control_is_ignored();
   if (state() != jobs::JobState::paused_unknown) return;
   expect_not_startable("its line was lost");
-  expect_refused(confirm(kFirst), Reason::wrong_mode, "it is PAUSED_UNKNOWN and is confirmed");
+  expect_refused(confirm(kFirst), Reason::wrong_job_state, "it is PAUSED_UNKNOWN and is confirmed");
 }
 
 bool BadLine::step(TimePoint until) {

@@ -11,7 +11,7 @@ namespace axisgate::rml1 {
 
 void BadLine::expect_not_startable(std::string_view why) {
   const std::uint64_t before = job_written_;
-  expect_refused(mill_.start(kFirst, prepared_, kOwner, bench_.now), Reason::not_allowed, why);
+  expect_refused(mill_.start(kFirst, prepared_, kOwner, bench_.now), Reason::not_confirmed, why);
   if (job_written_ > before) violate(fmt::format("written of the job, although {}", why));
 }
 
@@ -87,7 +87,7 @@ void BadLine::expect_next_waits() {
   if (result_.violation) return;
   const jobs::JobState outcome = state();
   if (outcome == jobs::JobState::fed || outcome == jobs::JobState::paused_unknown) {
-    expect_refused(confirm(kSecond), Reason::wrong_mode, fmt::format("the job before is {}", name(outcome)));
+    expect_refused(confirm(kSecond), Reason::wrong_job_state, fmt::format("the job before is {}", name(outcome)));
     const bool ended = outcome == jobs::JobState::fed ? mill_.done(kFirst, kAtMill.who, bench_.now).has_value()
                                                       : mill_.cancel(kFirst, kAtMill.who, bench_.now).has_value();
     if (!ended) violate("a person cannot say what became of the job");

@@ -187,7 +187,7 @@ TEST_F(ByHandAtTheMill, NotWhileAJobRunsNorByThoseWithoutARightNorThroughAClosed
   EXPECT_EQ(mill_.jobs()[0].state, jobs::JobState::confirmed) << "what is refused changes nothing";
   permission_.allowed = true;
   ASSERT_TRUE(start());
-  EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::wrong_mode);
+  EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::wrong_job_state);
   mill_.link_down(now_, "unplugged");
   EXPECT_EQ(reason(jobs::RaiseTool{}), Reason::link_down);
 }

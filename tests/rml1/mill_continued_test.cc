@@ -142,8 +142,8 @@ TEST_F(MillContinuedTest, ItGoesOnBehindWhatWasSent) {
 TEST_F(MillContinuedTest, ItsRestIsConfirmedAndStartedAndLeavesNothingOut) {
   raise_to_end();
   const jobs::Place from = *job(1).setup.from;
-  EXPECT_EQ(reason(start_rest(from)), Reason::not_allowed) << "it is not confirmed";
-  EXPECT_EQ(reason(confirm(1)), Reason::stale_setpoint) << "seen without where it continues";
+  EXPECT_EQ(reason(start_rest(from)), Reason::not_confirmed) << "it is not confirmed";
+  EXPECT_EQ(reason(confirm(1)), Reason::setup_changed) << "seen without where it continues";
   ASSERT_TRUE(confirm_as_shown(1));
   line_.writes.clear();
   noted_ = 0;
@@ -168,7 +168,7 @@ TEST_F(MillContinuedTest, NoOtherJobIsConfirmedBeforeIt) {
   raise_to_end();
   add(2);
   const Result<void> other = confirm(2);
-  EXPECT_EQ(reason(other), Reason::wrong_mode);
+  EXPECT_EQ(reason(other), Reason::wrong_job_state);
   EXPECT_THAT(other.error().message,
               HasSubstr("job 1 (part.rml, by unix anna) is not finished: it continues at line 1"));
   ASSERT_TRUE(mill_.cancel(1, "unix anna", now_));
@@ -239,7 +239,7 @@ TEST_F(MillContinuedTest, AtItsEndAJobIsNotRaised) {
   begin(1, 1);
   for (int i = 0; i < 60'000 && noted_ < vectors(1).size(); ++i) run_for(1ms);
   ASSERT_EQ(noted_, vectors(1).size());
-  EXPECT_EQ(reason(mill_.pause(true, now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.pause(true, now_)), Reason::wrong_job_state);
   EXPECT_EQ(state(1), running);
   run_for(60s);
   EXPECT_EQ(state(1), fed);
@@ -249,10 +249,10 @@ TEST_F(MillContinuedTest, ALostJobGoesOnWhereSomebodyHasChosen) {
   begin();
   run_for(3s);
   const jobs::Place from{9, 1, 10};
-  EXPECT_EQ(reason(mill_.choose_rest(1, {from}, "unix anna", now_)), Reason::wrong_mode) << "it runs";
+  EXPECT_EQ(reason(mill_.choose_rest(1, {from}, "unix anna", now_)), Reason::wrong_job_state) << "it runs";
   mill_.link_down(now_, "unplugged");
   EXPECT_EQ(reason(mill_.choose_rest(2, {from}, "unix anna", now_)), Reason::not_found);
-  EXPECT_EQ(reason(confirm_as_shown(1)), Reason::wrong_mode);
+  EXPECT_EQ(reason(confirm_as_shown(1)), Reason::wrong_job_state);
   ASSERT_TRUE(mill_.choose_rest(1, {from}, "unix anna", now_));
   EXPECT_EQ(said_.back(), "PAUSED: it continues at line 1, column 10");
   EXPECT_EQ(by_[paused], "unix anna");

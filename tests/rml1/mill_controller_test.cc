@@ -79,7 +79,7 @@ TEST_F(MillControllerTest, WhoLosesTheRightHasTheJobAborted) {
 
 TEST_F(MillControllerTest, WithoutAConfirmationNothingIsWritten) {
   add(1);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_confirmed);
   EXPECT_THAT(line_.writes, IsEmpty());
   EXPECT_EQ(state(1), queued);
 }
@@ -91,7 +91,7 @@ TEST_F(MillControllerTest, AConfirmationExpires) {
   mill_.advance(now_);
   EXPECT_EQ(state(1), confirmed);
   now_ += 1ms;
-  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed)
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_confirmed)
       << "also before time was let pass";
   mill_.advance(now_);
   EXPECT_EQ(state(1), queued);
@@ -103,7 +103,7 @@ TEST_F(MillControllerTest, AConfirmationIsForWhatTheJobNeeds) {
   for (const jobs::JobSetup& other :
        {jobs::JobSetup{"d2", "test", "corner", "T1"}, jobs::JobSetup{"d1", "mdx-15", "corner", "T1"},
         jobs::JobSetup{"d1", "test", "", "T1"}, jobs::JobSetup{"d1", "test", "corner", "T2"}}) {
-    EXPECT_EQ(reason(mill_.confirm(1, other, "unix bert", now_)), Reason::stale_setpoint);
+    EXPECT_EQ(reason(mill_.confirm(1, other, "unix bert", now_)), Reason::setup_changed);
   }
   EXPECT_EQ(state(1), queued);
 }
@@ -119,7 +119,7 @@ TEST_F(MillControllerTest, OnlyTheFirstOfTheQueueIsConfirmed) {
   add(1);
   add(2, "unix carla");
   const Result<void> second = confirm(2);
-  EXPECT_EQ(reason(second), Reason::wrong_mode);
+  EXPECT_EQ(reason(second), Reason::wrong_job_state);
   EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is before"));
   EXPECT_EQ(reason(confirm(3)), Reason::not_found);
   ASSERT_TRUE(mill_.cancel(1, "unix bert", now_));
@@ -133,14 +133,14 @@ TEST_F(MillControllerTest, WhileItIsNotKnownWhatBecameOfAJobNoOtherStarts) {
   run_for(60s);
   ASSERT_EQ(state(1), fed);
   const Result<void> second = confirm(2);
-  EXPECT_EQ(reason(second), Reason::wrong_mode);
+  EXPECT_EQ(reason(second), Reason::wrong_job_state);
   EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is FED"));
   ASSERT_TRUE(mill_.done(1, "unix bert", now_));
   run_job(2, 200);
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
   add(3);
-  EXPECT_EQ(reason(confirm(3)), Reason::wrong_mode);
+  EXPECT_EQ(reason(confirm(3)), Reason::wrong_job_state);
   ASSERT_TRUE(mill_.cancel(2, "unix bert", now_));
   EXPECT_TRUE(confirm(3));
 }
@@ -159,15 +159,15 @@ TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
   add(1);
   ASSERT_TRUE(confirm(1));
   mill_.setup_changed("unix bert has moved the mill", now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_confirmed);
   ASSERT_TRUE(confirm(1));
   mill_.abort({.who = "unix bert"}, now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_confirmed);
   run_for(1s);
   ASSERT_TRUE(confirm(1));
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_confirmed);
   EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true)));
 }
 
@@ -186,16 +186,16 @@ TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
   add(1);
   add(2);
   run_job(1);
-  EXPECT_EQ(reason(confirm(2)), Reason::wrong_mode);
-  EXPECT_EQ(reason(mill_.start(2, prepared(), {.who = "unix anna"}, now_)), Reason::wrong_mode);
-  EXPECT_EQ(reason(mill_.cancel(1, "unix bert", now_)), Reason::wrong_mode) << "it is aborted, not cancelled";
+  EXPECT_EQ(reason(confirm(2)), Reason::wrong_job_state);
+  EXPECT_EQ(reason(mill_.start(2, prepared(), {.who = "unix anna"}, now_)), Reason::wrong_job_state);
+  EXPECT_EQ(reason(mill_.cancel(1, "unix bert", now_)), Reason::wrong_job_state) << "it is aborted, not cancelled";
 }
 
 TEST_F(MillControllerTest, PauseAndResume) {
   add(1);
-  EXPECT_EQ(reason(mill_.pause(false, now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.pause(false, now_)), Reason::wrong_job_state);
   run_job(1);
-  EXPECT_EQ(reason(mill_.resume({.who = "unix anna"}, now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.resume({.who = "unix anna"}, now_)), Reason::wrong_job_state);
   run_for(2s);
   ASSERT_TRUE(mill_.pause(false, now_));
   const std::size_t before = line_.writes.size();
@@ -243,8 +243,8 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
   mill_.link_up(now_);
   run_for(60s);
   EXPECT_THAT(line_.writes, ElementsAre(abort_commands(profile_, true))) << "the mill is stopped once, nothing else";
-  EXPECT_EQ(reason(mill_.start(1, prepared(200), {.who = "unix anna"}, now_)), Reason::not_allowed);
-  EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.start(1, prepared(200), {.who = "unix anna"}, now_)), Reason::not_confirmed);
+  EXPECT_EQ(reason(confirm(1)), Reason::wrong_job_state);
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_));
 }
 

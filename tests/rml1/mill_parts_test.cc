@@ -134,7 +134,7 @@ TEST_F(MillPartsTest, BetweenTwoPartsNobodyOccupiesTheMillAndNothingIsWritten) {
   run_to_end();
   EXPECT_THAT(permission_.users, IsEmpty());
   take_written();
-  EXPECT_EQ(reason(start(1, 1)), Reason::not_allowed) << "it is not confirmed";
+  EXPECT_EQ(reason(start(1, 1)), Reason::not_confirmed) << "it is not confirmed";
   EXPECT_FALSE(mill_.next_deadline());
   EXPECT_EQ(take_written(), "");
   EXPECT_TRUE(mill_.is_idle());
@@ -158,7 +158,7 @@ TEST_F(MillPartsTest, TheConfirmationIsForTheToolOfThePart) {
   mill_.add(job_in_parts(1), now_);
   const jobs::JobSetup first = job(1).setup;
   feed(1, 0);
-  EXPECT_EQ(reason(mill_.confirm(1, first, "unix bert", now_)), Reason::stale_setpoint) << "T1 is out";
+  EXPECT_EQ(reason(mill_.confirm(1, first, "unix bert", now_)), Reason::setup_changed) << "T1 is out";
   EXPECT_EQ(job(1).state, tool_change);
   EXPECT_TRUE(confirm(1));
 }
@@ -199,7 +199,7 @@ TEST_F(MillPartsTest, AnAbortInAToolChangeIsSentAndTheJobStays) {
   EXPECT_TRUE(mill_.abort({.who = "unix carl"}, now_));
   EXPECT_EQ(take_written(), abort_commands(profile_, true));
   EXPECT_EQ(job(1).state, tool_change);
-  EXPECT_EQ(reason(start(1, 1)), Reason::not_allowed) << "its confirmation is void";
+  EXPECT_EQ(reason(start(1, 1)), Reason::not_confirmed) << "its confirmation is void";
 }
 
 TEST_F(MillPartsTest, AnAbortOfALaterPartEndsTheJob) {
@@ -218,7 +218,7 @@ TEST_F(MillPartsTest, NoOtherJobIsConfirmedBetweenTwoParts) {
   mill_.add(job_that_leaves(2, {}), now_);
   feed(1, 0);
   const Result<void> second = confirm(2);
-  EXPECT_EQ(reason(second), Reason::wrong_mode);
+  EXPECT_EQ(reason(second), Reason::wrong_job_state);
   EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is not finished: its next tool is T3"));
   ASSERT_TRUE(mill_.cancel(1, "unix anna", now_));
   EXPECT_EQ(said_.back(), "CANCELLED");
@@ -241,7 +241,7 @@ TEST_F(MillPartsTest, ALineThatIsLostInALaterPart) {
   EXPECT_EQ(job(1).state, paused_unknown);
   EXPECT_EQ(job(1).written->least, 24u) << "the part before was executed";
   EXPECT_LE(job(1).written->most, 36u);
-  EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
+  EXPECT_EQ(reason(confirm(1)), Reason::wrong_job_state);
 }
 
 TEST_F(MillPartsTest, AnInheritedToolChangeIsConfirmedAndSendsNoAbort) {
@@ -270,7 +270,7 @@ TEST_F(MillLeavesTest, WhatAJobHasSetIsSeenBeforeTheNextIsConfirmed) {
               ElementsAre("job 1 (part.rml) sets Z0", "job 1 (part.rml) sets the spindle speed (!RC)"));
   EXPECT_THAT(job(3).setup.left, IsEmpty()) << "job 2 is before it";
   const Result<void> unseen = mill_.confirm(2, seen, "unix bert", now_);
-  EXPECT_EQ(reason(unseen), Reason::stale_setpoint);
+  EXPECT_EQ(reason(unseen), Reason::setup_changed);
   EXPECT_THAT(unseen.error().message, HasSubstr("job 1 (part.rml) sets Z0"));
   feed(2, 0);
   ASSERT_TRUE(mill_.done(2, "unix bert", now_));
@@ -334,7 +334,7 @@ TEST_F(MillLeavesTest, AJobThatContinuesAWorkpieceNeedsItsZ0) {
   ASSERT_TRUE(mill_.operate(jobs::SetZ0{-800}, {.who = "unix anna"}, now_));
   const Result<void> confirmed = confirm(2);
   ASSERT_FALSE(confirmed);
-  EXPECT_EQ(confirmed.error().reason, Reason::stale_setpoint);
+  EXPECT_EQ(confirmed.error().reason, Reason::setup_changed);
   EXPECT_THAT(confirmed.error().message, HasSubstr("Z0 was sent to the mill since job 1 began"));
 }
 

@@ -87,7 +87,7 @@ TEST_F(MillQueueOrder, AConfirmedJobIsNeitherMovedNorOvertaken) {
   ASSERT_TRUE(first(3));
   EXPECT_THAT(order(), ElementsAre(1, 3, 2));
   EXPECT_EQ(state(1), confirmed);
-  EXPECT_EQ(reason(first(1)), Reason::wrong_mode);
+  EXPECT_EQ(reason(first(1)), Reason::wrong_job_state);
   EXPECT_THAT(order_after_restart(), ElementsAre(1, 3, 2)) << "also without its confirmation";
   mill_.setup_changed("by hand", now_);
   ASSERT_TRUE(first(2));
@@ -102,13 +102,13 @@ TEST_F(MillQueueOrder, WhatWasBegunIsNeitherMovedNorOvertaken) {
   ASSERT_TRUE(first(3));
   EXPECT_THAT(order(), ElementsAre(1, 3, 2));
   const Result<void> running_one = first(1);
-  EXPECT_EQ(reason(running_one), Reason::wrong_mode);
+  EXPECT_EQ(reason(running_one), Reason::wrong_job_state);
   EXPECT_THAT(running_one.error().message, HasSubstr("job 1 (part.rml, by unix anna) is RUNNING"));
   mill_.link_down(now_, "unplugged");
   ASSERT_EQ(state(1), paused_unknown);
   ASSERT_TRUE(first(2));
   EXPECT_THAT(order(), ElementsAre(1, 2, 3));
-  EXPECT_EQ(reason(first(1)), Reason::wrong_mode);
+  EXPECT_EQ(reason(first(1)), Reason::wrong_job_state);
   EXPECT_EQ(reason(first(9)), Reason::not_found);
   EXPECT_THAT(order_after_restart(), ElementsAre(1, 2, 3));
 }
@@ -132,7 +132,7 @@ TEST_F(MillQueueOrder, WhatIsLeftIsShownToWhoConfirmsTheNewFirst) {
   ASSERT_THAT(order(), ElementsAre(9, 8));
   EXPECT_THAT(mill_.jobs()[0].setup.left, ElementsAre("job 7 (lid.rml) sets Z0"));
   EXPECT_THAT(mill_.jobs()[1].setup.left, IsEmpty());
-  EXPECT_EQ(reason(confirm(9)), Reason::stale_setpoint) << "nothing was seen";
+  EXPECT_EQ(reason(confirm(9)), Reason::setup_changed) << "nothing was seen";
 }
 
 TEST_F(MillQueueOrder, WhatIsSentLaterIsBehindAllThatWereMoved) {

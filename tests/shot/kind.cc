@@ -13,6 +13,10 @@ class Shot final : public stage::Kind {
   std::string_view name() const override { return name_; }
   int axis_count() const override { return model_.axis_count(); }
   std::span<const stage::KindSetting> settings() const override { return {}; }
+  std::span<const stage::Capability> capabilities() const override {
+    static constexpr std::array kAll = {stage::Capability::move, stage::Capability::home};
+    return kAll;
+  }
 
   std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const Words&, ByteLink& link,
                                                    EventSink& events, Permission& permission) const override {

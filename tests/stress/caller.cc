@@ -126,6 +126,9 @@ void Caller::execute(std::size_t device, std::vector<std::string> lines, std::ve
         ++right_answers_;
         ++next;
         return;
+      case ExecuteEvent::Kind::motion:
+        EXPECT_EQ(next, 0U) << asked->asked();
+        return;
       case ExecuteEvent::Kind::completion:
         EXPECT_EQ(right.front(), "OK") << asked->asked() << " moved axis " << event.axis;
         return;

@@ -66,8 +66,11 @@ int token_create(const Session& session) {
 }
 
 int token_list(const Session& session) {
-  const v1::ListTokensResponse tokens = session.connection.call(
-      session.connection.access, &v1::AccessService::Stub::ListTokens, v1::ListTokensRequest(), kQuestionLimit);
+  constexpr int all_that_the_daemon_keeps = 1000;
+  v1::ListTokensRequest request;
+  request.set_page_size(all_that_the_daemon_keeps);
+  const v1::ListTokensResponse tokens =
+      session.connection.call(session.connection.access, &v1::AccessService::Stub::ListTokens, request, kQuestionLimit);
   if (session.options.json) {
     print_json(tokens);
     return kDone;

@@ -23,7 +23,7 @@ void show(const v1::ExecuteResponse& response, bool json) {
     print_json(response);
   } else if (response.has_reply()) {
     print_line(response.reply().answer());
-  } else {
+  } else if (response.change_case() == v1::ExecuteResponse::kCompletion) {
     print_line(std::to_string(response.completion()));
   }
 }

@@ -22,7 +22,7 @@ Duration longest_return(const Profile& profile, double slack) {
 }
 
 tl::unexpected<Problem> refuse_paused(jobs::JobNumber job, std::string_view is, std::string_view hint) {
-  return fail(Reason::wrong_mode, fmt::format("job {} is {} already", job, is), std::string(hint));
+  return fail(Reason::wrong_job_state, fmt::format("job {} is {} already", job, is), std::string(hint));
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ Result<void> JobRun::check_sending(bool raise) const {
   if (!run_ && paused != nullptr) {
     return refuse_paused(paused->number, "paused", "it continues once it is confirmed and started");
   }
-  return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
+  return fail(Reason::wrong_job_state, "no job is being sent", "`axisctl mill watch` shows what the mill does");
 }
 
 Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
@@ -73,7 +73,8 @@ Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
   if (run_->sender.state() != jobs::SenderState::finishing && (has_rest || !raise)) return {};
   const bool last = is_last_part(job());
   return fail(
-      Reason::wrong_mode, fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
+      Reason::wrong_job_state,
+      fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
       last ? "`axisctl mill abort` ends it" : "its tool goes up by itself, and the job then waits for the next");
 }
 
@@ -88,7 +89,7 @@ Result<void> JobRun::pause(bool raise, TimePoint now) {
 Result<void> JobRun::check_resumable() const {
   if (run_ && run_->sender.state() == jobs::SenderState::paused) return {};
   return fail(
-      Reason::wrong_mode, "no job is paused with the tool in the cut",
+      Reason::wrong_job_state, "no job is paused with the tool in the cut",
       "`axisctl mill queue` shows what the mill does; one that is PAUSED continues when it is confirmed and started");
 }
 

@@ -43,10 +43,10 @@ class JobRun {
   // Starts a confirmed job; no job may be running. Sends the first byte at once if the mill takes it.
   void start(jobs::Job& job, std::shared_ptr<const PreparedJob> prepared, const use::RequestContext& by, TimePoint now);
   // Pauses the running job. If `raise`, the tool is raised and the spindle stops after the bytes sent before, and the
-  // job is then PAUSED. Fails with wrong_mode if no job is being sent, if the job is already paused, or if its last
-  // byte was written.
+  // job is then PAUSED. Fails with wrong_job_state if no job is being sent, if the job is already paused, or if its
+  // last byte was written.
   Result<void> pause(bool raise, TimePoint now);
-  // Fails with wrong_mode if no job is paused with the tool in the cut.
+  // Fails with wrong_job_state if no job is paused with the tool in the cut.
   Result<void> check_resumable() const;
   // Continues sending. Call it after check_resumable() has passed.
   void resume(TimePoint now);

@@ -66,7 +66,7 @@ Result<void> MillController::check_open() const {
 
 Result<void> MillController::check_no_job_runs(std::string_view hint) const {
   if (run_.number() == 0) return {};
-  return fail(Reason::wrong_mode, fmt::format("job {} runs", run_.number()), std::string(hint));
+  return fail(Reason::wrong_job_state, fmt::format("job {} runs", run_.number()), std::string(hint));
 }
 
 Result<void> MillController::confirm(jobs::JobNumber number, const jobs::JobSetup& seen, std::string by,
@@ -118,7 +118,7 @@ Result<void> MillController::choose_rest(jobs::JobNumber number, const jobs::Job
   if (!found) return tl::unexpected(found.error());
   jobs::Job& job = **found;
   if (!next(job.state, jobs::JobEvent::choose_rest)) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
+    return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that is PAUSED_UNKNOWN or PAUSED is continued from a line");
   }
   job.setup.from = rest.from;

@@ -32,6 +32,10 @@ Task<bool> TransactionStart::begin(Transaction& transaction) {
     motions_.refuse(*transaction.live, begun.error());
     co_return false;
   }
+  ExecuteEvent named;
+  named.kind = ExecuteEvent::Kind::motion;
+  named.motion = transaction.live->motion.id;
+  transaction.tell(named);
   transaction.live->on_completion = [&transaction](int axis) {
     ExecuteEvent event;
     event.kind = ExecuteEvent::Kind::completion;

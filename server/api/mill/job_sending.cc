@@ -68,7 +68,7 @@ Result<void> check_has_rest(const jobs::Job& job) {
   const bool was_begun = job.executed || job.written || job.part > 0;
   const bool is_cut_off = job.state == jobs::JobState::aborted || job.state == jobs::JobState::cancelled;
   if (is_cut_off && was_begun) return {};
-  return fail(Reason::wrong_mode,
+  return fail(Reason::wrong_job_state,
               fmt::format("{} is {}{}: it has no rest", text_of(job), name(job.state),
                           is_cut_off ? ", and was never begun" : ""),
               fmt::format("`axisctl mill again {}` queues all of it", job.number));

@@ -35,7 +35,7 @@ class JobSending {
   // many parts, or if the line does not support the streaming; as check_same_workpiece() does; and with queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
   // Queues an ended job again. Fails as server::ended_job(), server::chosen_rest() and JobUpload::finish() do, and with
-  // wrong_mode if the rest is requested and there is none.
+  // wrong_job_state if the rest is requested and there is none.
   void repeat(const Call& call, std::string_view job, JobToRepeat how, Answer<CurrentJob> answer) const;
 
  private:

@@ -40,7 +40,7 @@ Result<void> check_setup(const server::Mill& mill, const jobs::Job& job) {
                           job.checked_for == server::checked_for(config, job.setup.origin);
   if (as_checked && std::ranges::all_of(job.parts, has_tool)) return {};
   return fail(
-      Reason::stale_setpoint,
+      Reason::setup_changed,
       fmt::format(
           "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
           text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),

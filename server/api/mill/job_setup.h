@@ -10,7 +10,7 @@
 
 namespace axisgate::api {
 
-// Fails with stale_setpoint if the configuration no longer matches the one for which the job was checked.
+// Fails with setup_changed if the configuration no longer matches the one for which the job was checked.
 Result<void> check_setup(const server::Mill& mill, const jobs::Job& job);
 
 // Fails with not_allowed if the caller is not at the mill's station.

@@ -24,7 +24,7 @@ Result<jobs::Job> published_job(server::Mill& mill, jobs::JobNumber number) {
 // Returns the problem of a job that was not read because of its published state, although its state allows that now. In
 // most cases the state has not changed, and the request is refused because of it.
 Problem changed_meanwhile(const jobs::Job& job) {
-  return {.reason = Reason::wrong_mode,
+  return {.reason = Reason::wrong_job_state,
           .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
           .hint = "ask again"};
 }

@@ -109,7 +109,7 @@ std::string JobUpload::facts(const CheckedJob& checked) const {
 // Both jobs count heights from the Z0 that was set when the job before began.
 Result<void> JobUpload::check_z0(std::uint64_t z0_count) const {
   if (!before_.z0_count || *before_.z0_count == z0_count) return {};
-  return fail(Reason::stale_setpoint, fmt::format("Z0 was sent to the mill since job {} began", before_.cut),
+  return fail(Reason::setup_changed, fmt::format("Z0 was sent to the mill since job {} began", before_.cut),
               "send the job without the one that it continues; if Z0 is still the same surface, accept deep-pass");
 }
 

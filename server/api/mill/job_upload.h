@@ -65,7 +65,7 @@ class JobUpload {
   // Fails with queue_full if the spool has no room for more, and as JobCheck::feed() does.
   Result<void> append(std::string_view bytes);
   // Checks, stores and queues the job. `digest` is that of the whole request. Fails as JobCheck::finish() and
-  // workpiece_after() do, and with stale_setpoint if Z0 was sent since the job before began. `answer` must keep this
+  // workpiece_after() do, and with setup_changed if Z0 was sent since the job before began. `answer` must keep this
   // object alive until it is called.
   void finish(std::string digest, const Answer<CurrentJob>& answer);
 

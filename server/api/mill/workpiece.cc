@@ -36,10 +36,10 @@ Result<std::vector<jobs::Job>> chain_to(const server::Mill& mill, jobs::JobNumbe
 Result<void> check_same_workpiece(const server::Mill& mill, const jobs::Job& ended, std::string_view origin,
                                   const std::optional<jobs::Stock>& stock) {
   const auto differs = [&ended](const std::string& how, std::string hint) {
-    return fail(Reason::stale_setpoint, fmt::format("{} {}", text_of(ended), how), std::move(hint));
+    return fail(Reason::setup_changed, fmt::format("{} {}", text_of(ended), how), std::move(hint));
   };
   if (ended.state != jobs::JobState::done) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(ended), name(ended.state)),
+    return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(ended), name(ended.state)),
                 "a job continues only one that a person has seen: DONE");
   }
   if (ended.setup.origin != origin) {

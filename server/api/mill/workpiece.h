@@ -10,8 +10,8 @@
 
 namespace axisgate::api {
 
-// Checks that a job of that origin and stock can continue the workpiece of the ended job. Fails with wrong_mode if the
-// ended job is not DONE, and with stale_setpoint if origin, stock or configuration differ, or if it sets Z0 itself.
+// Checks that a job of that origin and stock can continue the workpiece of the ended job. Fails with wrong_job_state if
+// the ended job is not DONE, and with setup_changed if origin, stock or configuration differ, or if it sets Z0 itself.
 Result<void> check_same_workpiece(const server::Mill& mill, const jobs::Job& ended, std::string_view origin,
                                   const std::optional<jobs::Stock>& stock);
 

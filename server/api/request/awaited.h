@@ -24,7 +24,6 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
   using Found = std::optional<Item>;  // nullopt: the subscription ended without an item
   using Handle = std::shared_ptr<Awaited>;
 
-  // `late` is the problem if no item has come when the time is over.
   static Handle start(std::shared_ptr<Subscription<Item>> subscription, Wanted wanted, Answer<Found> answer) {
     const Handle awaited(new Awaited(std::move(subscription), std::move(wanted), std::move(answer)));
     awaited->self_ = awaited;
@@ -35,10 +34,10 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
     return awaited;
   }
 
-  // Answers after `wait` with the newest item, or with `late` if there is none.
-  void limit(server::Timeouts& timeouts, Duration wait, Problem late) {
-    auto timeout = timeouts.unless_dropped(wait, [waiting = this->weak_from_this(), late = std::move(late)] {
-      if (const auto still = waiting.lock()) still->finish(late);
+  // Answers after `wait` with the newest item, or then with the first one that comes.
+  void limit(server::Timeouts& timeouts, Duration wait) {
+    auto timeout = timeouts.unless_dropped(wait, [waiting = this->weak_from_this()] {
+      if (const auto still = waiting.lock()) still->hurry();
     });
     const std::lock_guard lock(mutex_);
     if (self_) timeout_ = std::move(timeout);
@@ -56,7 +55,7 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
       const std::lock_guard lock(reading_);
       if (!read_all()) return;
     }
-    finish({});
+    finish();
   }
 
   // Returns true once there is an answer.
@@ -67,7 +66,7 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
       if (!self_) return false;
       if (auto* item = std::get_if<Item>(&reading)) {
         newest_ = std::move(*item);
-        if (wanted_(*newest_)) return true;
+        if (hurried_ || wanted_(*newest_)) return true;
       } else if (const auto* end = std::get_if<StreamEnd>(&reading)) {
         if (end->problem) problem_ = end->problem;
         return true;
@@ -77,10 +76,18 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
     }
   }
 
-  void finish(std::optional<Problem> late) {
+  void hurry() {
+    {
+      const std::lock_guard lock(mutex_);
+      hurried_ = true;
+      if (!newest_) return;
+    }
+    finish();
+  }
+
+  void finish() {
     if (!end()) return;
     if (newest_) return answer_(std::move(newest_));
-    if (!problem_) problem_ = std::move(late);
     problem_ ? answer_(tl::unexpected(*problem_)) : answer_(Found());
   }
 
@@ -105,6 +112,7 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
   std::mutex reading_;  // one thread reads at a time
   std::mutex mutex_;    // guards the members below
   Found newest_;
+  bool hurried_ = false;  // any item is wanted
   std::optional<Problem> problem_;
   std::unique_ptr<server::Timeout> timeout_;
   Handle self_;  // keeps this object until the answer; null after it

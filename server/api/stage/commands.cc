@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <utility>
@@ -100,7 +101,8 @@ class Execution final : public Subscription<ExecuteEvent> {
   void remember(const ExecuteEvent& event, Mutation& mutation) {
     events_.push_back(event);
     if (event.kind != ExecuteEvent::Kind::ended) return;
-    const bool answered = events_.size() > 1;
+    const bool answered =
+        std::ranges::any_of(events_, [](const ExecuteEvent& one) { return one.kind == ExecuteEvent::Kind::reply; });
     event.problem && !answered ? mutation.failed(*event.problem) : mutation.acted(server::journal::answer_of(events_));
   }
 

@@ -127,8 +127,7 @@ std::function<void()> Motions::wait(const Call& call, std::string_view motion, D
       [answer](Result<StartedMotion> found) {
         found ? answer(**std::move(found)) : answer(tl::unexpected(found.error()));
       });
-  waiting->limit(gateway_.timeouts(), longest,
-                 {.reason = Reason::deadline_passed, .message = "the state of the motion could not be read in time"});
+  waiting->limit(gateway_.timeouts(), longest);
   return [waiting] { waiting->leave(); };
 }
 

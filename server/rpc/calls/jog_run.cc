@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/proto/motions.h"
 #include "server/proto/targets.h"
-#include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unreadable.h"
 

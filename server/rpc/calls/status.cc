@@ -1,22 +1,16 @@
 #include "server/rpc/calls/status.h"
 
 #include <google/protobuf/util/time_util.h>
+#include <google/rpc/error_details.pb.h>
+#include <google/rpc/status.pb.h>
 
 #include <chrono>
-
-#include "device/core/explain.h"
 
 namespace axisgate::rpc {
 namespace {
 
-void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
-  google::protobuf::Any& any = *status.add_details();
-  any.set_type_url(std::string("type.googleapis.com/") + type);
-  any.set_value(detail.SerializeAsString());
-}
-
-v1::ErrorInfo to_info(const v1::Problem& problem, Reason reason) {
-  v1::ErrorInfo info;
+google::rpc::ErrorInfo to_info(const v1::Problem& problem, Reason reason) {
+  google::rpc::ErrorInfo info;
   info.set_reason(std::string(name(reason)));
   info.set_domain("axisgate");
   auto& metadata = *info.mutable_metadata();
@@ -28,8 +22,8 @@ v1::ErrorInfo to_info(const v1::Problem& problem, Reason reason) {
   return info;
 }
 
-v1::RetryInfo to_info(Duration retry_after) {
-  v1::RetryInfo info;
+google::rpc::RetryInfo to_info(Duration retry_after) {
+  google::rpc::RetryInfo info;
   *info.mutable_retry_delay() =
       google::protobuf::util::TimeUtil::NanosecondsToDuration(std::chrono::nanoseconds(retry_after).count());
   return info;
@@ -79,6 +73,9 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::unexplained:
     case Reason::request_memory_lost:
     case Reason::stop_unconfirmed:
+    case Reason::wrong_job_state:
+    case Reason::setup_changed:
+    case Reason::not_confirmed:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::link_down:
     case Reason::not_sent:
@@ -112,15 +109,14 @@ grpc::StatusCode code_of(Reason reason) {
 
 grpc::Status to_status(const Problem& problem, const proto::Metadata& metadata) {
   const grpc::StatusCode code = code_of(problem.reason);
-  const std::string message = explain(problem);
   const v1::Problem detail = proto::to_proto(problem, metadata);
-  v1::ErrorStatus status;
+  google::rpc::Status status;
   status.set_code(code);
-  status.set_message(message);
-  pack("axisgate.v1.Problem", detail, status);
-  pack("google.rpc.ErrorInfo", to_info(detail, problem.reason), status);
-  if (const auto wait = retry_after(problem.reason)) pack("google.rpc.RetryInfo", to_info(*wait), status);
-  return {code, message, status.SerializeAsString()};
+  status.set_message(problem.message);
+  status.add_details()->PackFrom(detail);
+  status.add_details()->PackFrom(to_info(detail, problem.reason));
+  if (const auto wait = retry_after(problem.reason)) status.add_details()->PackFrom(to_info(*wait));
+  return {code, problem.message, status.SerializeAsString()};
 }
 
 grpc::Status to_status(const api::StreamEnd& end) {

@@ -17,8 +17,8 @@ grpc::StatusCode code_of(Reason reason);
 // Returns the delay after which a request refused for this reason may be repeated. nullopt if waiting does not help.
 std::optional<Duration> retry_after(Reason reason);
 
-// Puts an ErrorStatus with Problem, ErrorInfo and, if waiting helps, RetryInfo into the error details. gRPC sends them
-// as the trailing metadata `grpc-status-details-bin`.
+// Puts an google.rpc.Status with Problem, ErrorInfo and, if waiting helps, RetryInfo into the error details. gRPC sends
+// them as the trailing metadata `grpc-status-details-bin`.
 grpc::Status to_status(const Problem& problem, const proto::Metadata& metadata = {});
 
 // Returns OK or the stream's problem, with the metadata "resume_revision" if the stream can be resumed.

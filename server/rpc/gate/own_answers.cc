@@ -145,7 +145,10 @@ std::unique_ptr<Answer> OwnAnswers::execute(const v1::ExecuteRequest& request, A
   call.validate_only = request.validate_only();
   if (!call.request_id.empty()) call.digest = proto::digest_of(request);
   const auto opened = api_.commands.execute(call, request.device(), proto::to_transaction(request));
-  return stream_answer(opened, std::move(asked.served), proto::to_response, std::move(asked.wake));
+  const auto fill = [device = request.device()](const stage::ExecuteEvent& event) {
+    return proto::to_response(device, event);
+  };
+  return stream_answer(opened, std::move(asked.served), fill, std::move(asked.wake));
 }
 
 }  // namespace axisgate::rpc

@@ -1,6 +1,7 @@
 #include "server/rpc/gate/refusals.h"
 
 #include <fmt/format.h>
+#include <google/rpc/status.pb.h>
 
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ constexpr std::size_t kMessageMax = 300;
 
 // Returns the problem that to_status() has packed. nullopt if there is none.
 std::optional<v1::Problem> problem_of(const grpc::Status& status) {
-  v1::ErrorStatus details;
+  google::rpc::Status details;
   v1::Problem problem;
   if (status.error_details().empty() || !details.ParseFromString(status.error_details())) return std::nullopt;
   if (details.details_size() == 0 || !problem.ParseFromString(details.details(0).value())) return std::nullopt;

@@ -4,6 +4,7 @@
 #include "axisgate/v1/access.grpc.pb.h"
 #include "server/api/sharing/tokens.h"
 #include "server/proto/callers.h"
+#include "server/proto/pages.h"
 #include "server/proto/tokens.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
@@ -36,11 +37,14 @@ class AccessService final : public v1::AccessService::CallbackService {
                           });
   }
 
-  grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest*,
+  grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest* request,
                                        v1::ListTokensResponse* response) override {
+    if (const auto good = proto::check_page_size(request->page_size()); !good) {
+      return UnaryCall<v1::ListTokensResponse>::start(response)->refuse(good.error());
+    }
     return answer_at_once(response, tokens_.list(to_call(*context)),
-                          [](v1::ListTokensResponse& answer, const std::vector<server::Token>& tokens) {
-                            for (const server::Token& token : tokens) *answer.add_tokens() = proto::to_proto(token);
+                          [&](v1::ListTokensResponse& answer, std::vector<server::Token> tokens) {
+                            proto::fill_page(*request, std::move(tokens), answer);
                           });
   }
 

@@ -4,8 +4,9 @@
 
 #include "axisgate/v1/position.grpc.pb.h"
 #include "server/api/stage/positions.h"
+#include "server/proto/motions.h"
+#include "server/proto/pages.h"
 #include "server/proto/positions.h"
-#include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/unary_call.h"
 #include "server/rpc/services.h"
@@ -34,10 +35,15 @@ class PositionService final : public v1::PositionService::CallbackService {
                                           v1::ListPositionsResponse* response) override {
     using Positions = std::vector<api::NamedPosition>;
     const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
-    positions_.list(to_call(*context), request->device(),
-                    answering<Positions>(call, [this](v1::ListPositionsResponse& answer, const Positions& positions) {
-                      for (const auto& position : positions) *answer.add_positions() = to_proto(position);
-                    }));
+    if (const auto good = proto::check_page_size(request->page_size()); !good) return call->refuse(good.error());
+    positions_.list(
+        to_call(*context), request->device(),
+        answering<Positions>(call, [this, asked = *request](v1::ListPositionsResponse& answer, Positions positions) {
+          std::erase_if(positions, [&](const api::NamedPosition& one) { return left_out(one, asked.kind()); });
+          answer.set_next_page_token(proto::cut_page(positions, asked.page_size(), asked.page_token(),
+                                                     [](const api::NamedPosition& one) { return one.position.name; }));
+          for (const auto& position : positions) *answer.add_positions() = to_proto(position);
+        }));
     return call.get();
   }
 
@@ -62,6 +68,10 @@ class PositionService final : public v1::PositionService::CallbackService {
   }
 
  private:
+  static bool left_out(const api::NamedPosition& one, v1::PositionKind kind) {
+    if (kind == v1::POSITION_KIND_UNSPECIFIED) return false;
+    return one.position.place != (kind == v1::POSITION_KIND_PLACE);
+  }
   v1::Position to_proto(const api::NamedPosition& named) const {
     return proto::to_proto(named, proto::Shown(gateway_.find_stage(named.position.device)));
   }

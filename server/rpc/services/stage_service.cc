@@ -10,8 +10,9 @@
 #include "server/api/stage/paths.h"
 #include "server/limits.h"
 #include "server/proto/amounts.h"
+#include "server/proto/motions.h"
+#include "server/proto/pages.h"
 #include "server/proto/targets.h"
-#include "server/proto/to_proto.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/half_close.h"
 #include "server/rpc/calls/jog_run.h"
@@ -140,9 +141,10 @@ class StageService final : public v1::StageService::CallbackService {
                                         v1::ListMotionsResponse* response) override {
     using Motions = std::vector<api::CurrentMotion>;
     const auto call = UnaryCall<v1::ListMotionsResponse>::start(response);
+    if (const auto good = proto::check_page_size(request->page_size()); !good) return call->refuse(good.error());
     motions_.list(to_call(*context), request->device(),
-                  answering<Motions>(call, [](v1::ListMotionsResponse& answer, const Motions& motions) {
-                    for (const api::CurrentMotion& motion : motions) *answer.add_motions() = proto::to_proto(motion);
+                  answering<Motions>(call, [asked = *request](v1::ListMotionsResponse& answer, Motions motions) {
+                    proto::fill_page(asked, std::move(motions), answer);
                   }));
     return call.get();
   }
