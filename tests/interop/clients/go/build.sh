@@ -27,7 +27,7 @@ files=()
 for path in "$proto"/axisgate/v1/*.proto; do
     file=${path#"$proto/"}
     files+=("$file")
-    options+=("--go_opt=M$file=interop/api" "--go-grpc_opt=M$file=interop/api")
+    options+=("--go_opt=M$file=interop/api;api" "--go-grpc_opt=M$file=interop/api;api")
 done
 PATH="$folder/bin:$PATH" protoc -I "$proto" --go_out=. --go-grpc_out=. --go_opt=module=interop \
     --go-grpc_opt=module=interop "${options[@]}" "${files[@]}"
