@@ -126,7 +126,7 @@ class MillRepeat(unittest.TestCase):
         again = queue["jobs"][0]
         self.assertEqual((again["setup"]["tool"], again["setup"]["origin"], again["stock"]["x_mm"]), ("T2", "vice", 50))
         self.assertEqual(again["continues"], "", "the workpiece is new")
-        self.refused("NOT_ALLOWED", "start")
+        self.refused("NOT_CONFIRMED", "start")
         self.finish(again["name"].rpartition("/")[2])
         self.refused("NOT_FOUND: job 77 of mill is not kept", "again", "77")
 
