@@ -49,7 +49,7 @@ std::string place_text(const v1::Axis& axis, std::int64_t pulses);
 // Returns "50000 pulse/s", or "?" if unknown.
 std::string speed_text(const v1::Speed& speed);
 
-// Returns "OUT1 OUT3" for 5 and "OUT", as the controller numbers its six outputs and inputs; "none" for 0.
+// Returns "OUT1 OUT3" for pins 1 and 3 and "OUT"; "none" if no pin is on.
 std::string pins_text(const v1::Pins& pins, std::string_view name);
 
 // Returns "unix anna, unix bert".

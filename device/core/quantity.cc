@@ -110,7 +110,7 @@ tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale&
               in_quotes(text_of(quantity.value, quantity.unit).append(per)) + " is not a whole number of pulses" +
                   size + (per.empty() ? "" : " a second") +
                   (lowest ? "; the nearest is " : "; the nearest are " + nearest(below) + " and ") + nearest(below + 1),
-              lowest ? "Ask for this, or let it be rounded." : "Ask for one of these, or let it be rounded.");
+              lowest ? "Ask for this." : "Ask for one of these.");
 }
 
 // Returns the length of the number at the beginning of `text`, with its exponent: 4 for "1e-3mm".

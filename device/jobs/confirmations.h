@@ -26,7 +26,7 @@ class Confirmations {
   // Confirms a job for which check_next() has passed. Fails with setup_changed if `seen` differs from the job's setup,
   // or if Z0 was sent to the mill since the workpiece that the job continues was begun.
   Result<void> confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now);
-  // Fails with not_allowed if the job is not confirmed, or no longer confirmed.
+  // Fails with not_confirmed if the job is not confirmed, or no longer confirmed.
   Result<void> check(const Job& job, TimePoint now) const;
   // Voids the confirmation, if there is one. `why`: reason, for people.
   void make_void(std::string_view why, TimePoint now);

@@ -86,7 +86,7 @@ class Machine : public LineMachine {
   // Confirmations::check_next() and confirm() do.
   virtual Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now) = 0;
   // Checks what start() checks, except the bytes and the right to the machine. Fails with not_found; wrong_job_state if
-  // a job runs; link_down; not_allowed if the job is not confirmed, or no longer confirmed; axis_busy.
+  // a job runs; link_down; not_confirmed if the job is not confirmed, or no longer confirmed; axis_busy.
   virtual Result<void> check_startable(JobNumber job, TimePoint now) = 0;
   // Starts a job. Sends its first byte at once if the machine takes it. `prepared`: the job's next part, prepared by
   // the machine's own Model. Fails as check_startable() and Permission::authorize() do.

@@ -130,11 +130,11 @@ Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedPtrField<std::str
 }
 
 Result<int> to_bits(const v1::Pins& pins) {
-  constexpr int kPinsMax = 30;
+  constexpr int kPinsMax = 6;
   int bits = 0;
   for (const int pin : pins.on()) {
     if (pin < 1 || pin > kPinsMax) {
-      return fail(Reason::out_of_range, fmt::format("there is no pin {}", pin), "pins are numbered from 1");
+      return fail(Reason::out_of_range, fmt::format("there is no pin {}", pin), "pins are numbered from 1 to 6");
     }
     bits |= 1 << (pin - 1);
   }

@@ -24,7 +24,8 @@ v1::Distance to_distance(const Quantity& quantity);
 v1::Speed to_speed(const Quantity& quantity);
 v1::Unit to_proto(Unit unit);
 
-// Inputs or outputs as bits: pin 1 is 1, pin 2 is 2, pin 3 is 4. Fails with out_of_range for a pin below 1 or above 30.
+// Inputs or outputs as bits: pin 1 is 1, pin 2 is 2, pin 3 is 4. Fails with out_of_range for a pin that the
+// controllers do not have: they have six of each (manual 95) I:, 96) O:).
 Result<int> to_bits(const v1::Pins& pins);
 v1::Pins to_pins(int bits);
 

@@ -14,6 +14,7 @@ v1::Caller::Kind kind_of(std::string_view who) {
        {"cert", v1::Caller::KIND_CERTIFICATE},
        {"token", v1::Caller::KIND_TOKEN},
        {"tcp", v1::Caller::KIND_CONNECTION}}};
+  if (who.starts_with("the gateway")) return v1::Caller::KIND_GATEWAY;
   const std::string_view way = who.substr(0, who.find(' '));
   for (const auto& [word, kind] : kKinds) {
     if (word == way) return kind;

@@ -83,6 +83,11 @@ Result<api::TriggerWish> to_trigger(const v1::Trigger& trigger, const api::AxisN
                 fmt::format("{} has another kind of interval, or none", v1::Trigger::Target_Name(trigger.target())),
                 "TARGET_DRIVE_PULSES needs `distance`, TARGET_TIMER `period`, and the scale targets `scale_pulses`");
   }
+  const bool counts_pulses =
+      trigger.target() != v1::Trigger::TARGET_NONE && trigger.target() != v1::Trigger::TARGET_TIMER;
+  if (counts_pulses && trigger.axis().empty()) {
+    return fail(Reason::invalid_request, "the trigger names no axis whose pulses it counts", "set `axis`");
+  }
   api::TriggerWish wish{static_cast<stage::Trigger::Target>(trigger.target() - v1::Trigger::TARGET_NONE), 0, {}};
   if (!trigger.axis().empty()) {
     const Result<int> axis = names.find(trigger.axis());

@@ -8,7 +8,7 @@ namespace {
 
 Reason start_jog(World& world, const Call& call) {
   Asking<StartedMotion> started;
-  world.api->jogs.start(call, kDevice, std::vector<JogAxis>{{.axis = 1, .direction = 1}}, started.answer());
+  (void)world.api->jogs.start(call, kDevice, std::vector<JogAxis>{{.axis = 1, .direction = 1}}, started.answer());
   const Result<StartedMotion> motion = started.get();
   if (!motion) return motion.error().reason;
   Asking<CurrentMotion> stopped;

@@ -73,6 +73,22 @@ TEST_F(RpcAmounts, AnAxisHasItsNameAndItsNumber) {
   EXPECT_EQ(problem(unknown).hint(), "x is axis 1, y is axis 2");
 }
 
+// A stop is not refused for its axes before its device is known.
+TEST_F(RpcAmounts, AStopNamesItsDeviceFirst) {
+  const auto stop = [this](const std::string& device, const std::string& axis) {
+    grpc::ClientContext context;
+    limit(context);
+    v1::StopRequest request;
+    request.set_device(device);
+    request.add_axes(axis);
+    v1::StopResponse response;
+    return reason(stage_->Stop(&context, request, &response));
+  };
+  EXPECT_EQ(stop("devices/typo", "z"), v1::REASON_UNKNOWN_DEVICE);
+  EXPECT_EQ(stop("devices/stage", "z"), v1::REASON_UNKNOWN_AXIS);
+  EXPECT_EQ(stop("", "y"), v1::REASON_UNSPECIFIED);
+}
+
 TEST_F(RpcAmounts, TheTriggerTakesADistanceOrATime) {
   const auto settings = v1::SettingService::NewStub(channel_);
   v1::ChangeSettingsRequest request;
@@ -94,8 +110,9 @@ TEST_F(RpcAmounts, TheTriggerTakesADistanceOrATime) {
     return response.device().trigger();
   };
   trigger.set_target(v1::Trigger::TARGET_DRIVE_PULSES);
-  trigger.set_axis("y");
   trigger.mutable_distance()->set_um("10");
+  EXPECT_EQ(change(), v1::REASON_INVALID_REQUEST);  // no axis
+  trigger.set_axis("y");
   EXPECT_EQ(change(), v1::REASON_UNSPECIFIED);
   EXPECT_EQ(trigger_now().axis(), "2");
   EXPECT_EQ(trigger_now().distance().pulses(), 1000);

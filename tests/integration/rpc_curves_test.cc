@@ -165,7 +165,7 @@ TEST(Segments, RestAndWaitForInputs) {
             "OUT_OF_RANGE: a rest of 255001 ms; 0 to 255000 ms are possible");
   EXPECT_EQ(refused(way + "rest_time { nanos: 1 }"), "NOT_REPRESENTABLE: a time of 1 ns is not a whole number of ms");
   EXPECT_EQ(refused(way + "inputs { on: 0 }"), "OUT_OF_RANGE: there is no pin 0");
-  EXPECT_EQ(refused(way + "inputs { on: 7 }"), "OUT_OF_RANGE: inputs that show 64; 0 to 63 are possible");
+  EXPECT_EQ(refused(way + "inputs { on: 7 }"), "OUT_OF_RANGE: there is no pin 7");
   EXPECT_EQ(refused("rest_time { seconds: 1 }"), "INVALID_REQUEST: the segment has no shape");
 }
 

@@ -71,6 +71,14 @@ TEST_F(RpcUnary, WaitMotionAnswersWithThePresentStateWhenItsTimeIsOver) {
   EXPECT_EQ(wait(jog.name(), 30'000).state(), v1::MOTION_STATE_STOPPED);
 }
 
+TEST_F(RpcUnary, WaitMotionLeavesItsPlaceWithItsAnswer) {
+  v1::Motion motion;
+  ASSERT_TRUE(move(move_request(1, "0.01"), &motion).ok());
+  for (int round = 0; round <= api::Streams::kStreamsMax; ++round) {
+    ASSERT_EQ(wait(motion.name(), 30'000).state(), v1::MOTION_STATE_SUCCEEDED) << round;
+  }
+}
+
 TEST_F(RpcUnary, WaitMotionNamesWhatThereIsNot) {
   v1::WaitMotionRequest request;
   v1::WaitMotionResponse response;
@@ -101,6 +109,21 @@ TEST_F(RpcUnary, AJogRunsWhileHigherNumbersCome) {
   EXPECT_EQ(kept.motion().state(), v1::MOTION_STATE_STOPPED);
   ASSERT_TRUE(keep_jog(jog.name(), number + 1, kept).ok());
   EXPECT_FALSE(kept.extended());
+}
+
+// The caller does not know the motion before it starts, which takes longer here than the silence that ends a jog.
+TEST_F(RpcUnary, AJogThatWaitsForItsTurnNeedsNoMessage) {
+  v1::MoveRequest slow = move_request(1, "1");
+  slow.mutable_targets(0)->mutable_profile()->mutable_minimum()->set_pulses_per_s(2000);
+  slow.mutable_targets(0)->mutable_profile()->mutable_maximum()->set_pulses_per_s(2000);
+  v1::Motion before;
+  ASSERT_TRUE(move(slow, &before).ok());
+  const v1::Motion jog = start_jog();
+  EXPECT_EQ(jog.state(), v1::MOTION_STATE_RUNNING) << jog.ShortDebugString();
+  const v1::Motion moved = motion_now(before.name());
+  EXPECT_EQ(moved.state(), v1::MOTION_STATE_SUCCEEDED);
+  EXPECT_GT(TimeUtil::TimestampToMilliseconds(moved.end_time()) - TimeUtil::TimestampToMilliseconds(jog.create_time()),
+            600);
 }
 
 TEST_F(RpcUnary, StopJogLetsTheJogSucceed) {

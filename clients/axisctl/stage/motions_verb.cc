@@ -51,11 +51,16 @@ std::vector<std::string> cells_of(const v1::Motion& motion, const google::protob
 
 int motions(const Session& session) {
   v1::ListMotionsRequest request;
-  constexpr int all_that_the_daemon_has = 1000;
+  constexpr int largest_page = 1000;
   request.set_device(chosen_device(session).name());
-  request.set_page_size(all_that_the_daemon_has);
-  v1::ListMotionsResponse there =
-      session.connection.call(session.connection.stage, &v1::StageService::Stub::ListMotions, request, kQuestionLimit);
+  request.set_page_size(largest_page);
+  v1::ListMotionsResponse there;
+  do {
+    const v1::ListMotionsResponse page = session.connection.call(
+        session.connection.stage, &v1::StageService::Stub::ListMotions, request, kQuestionLimit);
+    there.MergeFrom(page);
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
   std::reverse(there.mutable_motions()->begin(), there.mutable_motions()->end());  // the daemon's are newest first
   const std::vector<v1::Motion> shown = shown_of(there, session.options.all);
   if (session.options.json) {

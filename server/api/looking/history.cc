@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "device/stage/axes.h"
 #include "server/access/access.h"
 #include "server/api/request/audit.h"
 
@@ -25,13 +24,9 @@ Problem unavailable(Problem problem) {
   return problem;
 }
 
-Result<void> check(const Filter& filter, int page_size) {
+Result<void> check_page_size(int page_size) {
   if (page_size < 1 || page_size > History::kPageMax) {
     return fail(Reason::invalid_request, "page_size is not within 1 to 1000", "leave it 0 for 100");
-  }
-  if (filter.axis < 0 || filter.axis > stage::kAxesMax) {
-    return fail(Reason::invalid_request, fmt::format("axis is not within 1 to {}", stage::kAxesMax),
-                "leave it 0 for all");
   }
   return {};
 }
@@ -100,7 +95,7 @@ void History::list(const Call& call, Result<Filter> filter, int page_size, Answe
   const auto reader = let_read(RequestKind::list_history, call);
   if (!reader) return answer(tl::unexpected(reader.error()));
   if (!filter) return answer(tl::unexpected(filter.error()));
-  if (const auto good = check(*filter, page_size); !good) return answer(tl::unexpected(good.error()));
+  if (const auto good = check_page_size(page_size); !good) return answer(tl::unexpected(good.error()));
   if (const auto own = check_who(*reader, filter->who); !own) return answer(tl::unexpected(own.error()));
   filter->identity = reader->only;
   reader_.post(reader->identity,

@@ -75,8 +75,9 @@ void WaitingJobs::cancel_all(const Call& call, std::string_view device, std::str
                              Answer<CancelledJobs> answer) const {
   std::optional<Problem> fault;
   if (who.empty()) {
-    fault = Problem{
-        .reason = Reason::invalid_request, .message = "it is not said whose jobs", .hint = "set `who` to their owner"};
+    fault = Problem{.reason = Reason::invalid_request,
+                    .message = "it is not said whose jobs",
+                    .hint = "set `owner` to the name of their owner"};
   }
   pipeline_.act(
       {RequestKind::cancel_jobs, call, find_mill(gateway_, device), fault},

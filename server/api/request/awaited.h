@@ -30,7 +30,7 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
     awaited->subscription_->open([waiting = std::weak_ptr(awaited)] {
       if (const auto still = waiting.lock()) still->read();
     });
-    awaited->read();
+    awaited->opened();
     return awaited;
   }
 
@@ -47,10 +47,23 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
   void leave() { (void)end(); }
 
  private:
+  // A wake-up before this reads nothing: the subscription must not be closed while it is being opened.
+  void opened() {
+    {
+      const std::lock_guard lock(mutex_);
+      opened_ = true;
+    }
+    read();
+  }
+
   Awaited(std::shared_ptr<Subscription<Item>> subscription, Wanted wanted, Answer<Found> answer)
       : subscription_(std::move(subscription)), wanted_(std::move(wanted)), answer_(std::move(answer)) {}
 
   void read() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!opened_) return;
+    }
     {
       const std::lock_guard lock(reading_);
       if (!read_all()) return;
@@ -87,8 +100,8 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
 
   void finish() {
     if (!end()) return;
-    if (newest_) return answer_(std::move(newest_));
-    problem_ ? answer_(tl::unexpected(*problem_)) : answer_(Found());
+    if (problem_) return answer_(tl::unexpected(*problem_));
+    answer_(std::move(newest_));
   }
 
   // Returns false if it has ended before. The subscription is closed without a lock, because it waits for a wake-up in
@@ -111,6 +124,7 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
   const Answer<Found> answer_;
   std::mutex reading_;  // one thread reads at a time
   std::mutex mutex_;    // guards the members below
+  bool opened_ = false;
   Found newest_;
   bool hurried_ = false;  // any item is wanted
   std::optional<Problem> problem_;

@@ -25,7 +25,7 @@ Result<int> AxisNames::find(std::string_view number_or_name) const {
     names += fmt::format("{}{} is axis {}", names.empty() ? "" : ", ", name, axis);
   }
   return fail(Reason::unknown_axis, fmt::format("there is no axis \"{}\"", escaped(number_or_name)),
-              names.empty() ? "axes are numbered from 1; none has a name in the configuration" : names);
+              names.empty() ? "axes are numbered from 1" : names);
 }
 
 Result<stage::AxisSet> AxisNames::find_all(const std::vector<std::string_view>& numbers_or_names) const {

@@ -19,7 +19,7 @@ struct Credential {
   std::string session{};               // see use::Use::session
 };
 
-// Returns the caller's name as in Motion.who, without any check: "unix alice", "token night-scan".
+// Returns the caller's name as in Caller.name, without any check: "unix alice", "token night-scan".
 std::string name_of(const Credential& credential);
 
 // A Call is the data of one call, as plain values. Times are monotonic.

@@ -1,6 +1,7 @@
 // Numbers of the messages that keep jogs running.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -22,12 +23,13 @@ class JogNumbers {
     return true;
   }
 
-  // Forgets all but the newest jogs of the device; older ones have ended, because axes jog once at a time.
-  void forget_before(const void* device, stage::MotionId motion) {
-    constexpr stage::MotionId kKept = 100;
+  // Forgets the jogs of `device` that have ended, once there are many.
+  template <class Ended>
+  void forget_ended(const void* device, Ended has_ended) {
+    constexpr std::size_t kMany = 64;
     const std::lock_guard lock(mutex_);
-    if (motion <= kKept) return;
-    highest_.erase(highest_.lower_bound({device, 0}), highest_.lower_bound({device, motion - kKept}));
+    if (highest_.size() < kMany) return;
+    std::erase_if(highest_, [&](const auto& one) { return one.first.first == device && has_ended(one.first.second); });
   }
 
  private:

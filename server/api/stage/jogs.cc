@@ -35,6 +35,15 @@ std::optional<Problem> check_directions(const Result<JogAxes>& axes) {
   return {};
 }
 
+// Renews a jog for a caller that cannot do so before its answer names the motion.
+void renew_until_started(server::Timeouts& timeouts, const std::shared_ptr<Jog>& jog,
+                         const std::weak_ptr<Awaited<CurrentMotion>>& waiting) {
+  timeouts.after(StageController::kJogSilence / 4, [&timeouts, jog, waiting] {
+    if (waiting.expired() || !jog->renew(JogAxes())) return;
+    renew_until_started(timeouts, jog, waiting);
+  });
+}
+
 Result<void> check_own_jog(const stage::Motion& motion, std::string_view who) {
   if (motion.kind != stage::MotionKind::jog) {
     return fail(Reason::invalid_request, fmt::format("motion {} is not a jog", motion.id), "CancelMotion stops it");
@@ -52,13 +61,27 @@ Result<std::shared_ptr<Jog>> Jogs::open(const Credential& caller) const {
   return std::make_shared<Jog>(gateway_, pipeline_, *std::move(place));
 }
 
-void Jogs::start(const Call& call, std::string_view device, const Result<JogAxes>& axes,
-                 Answer<StartedMotion> answer) const {
-  const auto jog = open(call.credential);
-  if (!jog) return answer(tl::unexpected(jog.error()));
-  Awaited<CurrentMotion>::start(
-      *jog, [](const CurrentMotion&) { return true; }, std::move(answer));
-  (void)(*jog)->start(call, device, axes);
+std::function<void()> Jogs::start(const Call& call, std::string_view device, const Result<JogAxes>& axes,
+                                  const Answer<StartedMotion>& answer) const {
+  const auto opened = open(call.credential);
+  if (!opened) {
+    answer(tl::unexpected(opened.error()));
+    return {};
+  }
+  const std::shared_ptr<Jog>& jog = *opened;
+  const auto waiting = Awaited<CurrentMotion>::start(
+      jog, [](const CurrentMotion&) { return true; },
+      [jog, answer](const Result<StartedMotion>& started) {
+        if (started && *started) (void)jog->renew(JogAxes());
+        answer(started);
+      });
+  if (jog->start(call, device, axes)) renew_until_started(gateway_.timeouts(), jog, waiting);
+  return [started = std::weak_ptr(waiting), jog] {
+    const auto still = started.lock();
+    if (!still) return;
+    still->leave();
+    jog->break_off();
+  };
 }
 
 template <class Outcome, class Act>
@@ -78,16 +101,19 @@ void Jogs::on_jog(RequestKind kind, const Call& call, std::string_view motion, A
 void Jogs::keep(const Call& call, std::string_view motion, std::int64_t number, const Result<JogAxes>& axes,
                 Answer<KeptJog> answer) const {
   on_jog(RequestKind::keep_jog, call, motion, std::move(answer),
-         [&bus = gateway_.events(), &numbers = *numbers_, number, axes](const Turn& turn, const CurrentMotion& jog,
-                                                                        const Answer<KeptJog>& respond) {
+         [&bus = gateway_.events(), numbers = numbers_, number, axes](const Turn& turn, const CurrentMotion& jog,
+                                                                      const Answer<KeptJog>& respond) {
            const stage::MotionId id = jog.motion.id;
            const auto refuse = [&](const Problem& problem) {
              turn.controller.end_jog(id, problem, turn.now);
              respond(tl::unexpected(problem));
            };
            if (!axes) return refuse(axes.error());
-           numbers.forget_before(&turn.device, id);
-           if (stage::is_outcome(jog.motion.state) || !numbers.counts(&turn.device, id, number)) {
+           numbers->forget_ended(&turn.device, [&](stage::MotionId one) {
+             const auto found = turn.controller.find_motion(one);
+             return !found || stage::is_outcome(found->state);
+           });
+           if (stage::is_outcome(jog.motion.state) || !numbers->counts(&turn.device, id, number)) {
              return respond(KeptJog{jog, false});
            }
            const Result<void> renewed = turn.controller.renew_jog(id, request_axes(*axes), turn.now);

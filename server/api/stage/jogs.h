@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -82,9 +83,10 @@ class Jogs {
   // Fails with queue_full.
   Result<std::shared_ptr<Jog>> open(const Credential& caller) const;
 
-  // The three below are for callers that cannot stream. Answers once the axes run.
-  void start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes,
-             Answer<StartedMotion> answer) const;
+  // The three below are for callers that cannot stream. Answers once the axes run; until then the caller cannot renew
+  // the jog and need not. Returns a function to call if the caller leaves before; null if the request was refused.
+  std::function<void()> start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes,
+                              const Answer<StartedMotion>& answer) const;
   // Lets the jog run on if `number` is higher than all before it. A refused message stops the axes. Fails with
   // not_found, invalid_request if the motion is no jog, and not_allowed if it is another caller's.
   void keep(const Call& call, std::string_view motion, std::int64_t number, const Result<std::vector<JogAxis>>& axes,
@@ -100,7 +102,7 @@ class Jogs {
   server::Gateway& gateway_;
   const Pipeline& pipeline_;
   Streams& streams_;
-  const std::unique_ptr<JogNumbers> numbers_ = std::make_unique<JogNumbers>();
+  const std::shared_ptr<JogNumbers> numbers_ = std::make_shared<JogNumbers>();  // also of what is still posted
 };
 
 }  // namespace axisgate::api

@@ -128,7 +128,9 @@ std::function<void()> Motions::wait(const Call& call, std::string_view motion, D
         found ? answer(**std::move(found)) : answer(tl::unexpected(found.error()));
       });
   waiting->limit(gateway_.timeouts(), longest);
-  return [waiting] { waiting->leave(); };
+  return [left = std::weak_ptr(waiting)] {
+    if (const auto still = left.lock()) still->leave();
+  };
 }
 
 void Motions::cancel(const Call& call, std::string_view motion, Answer<void> answer) const {

@@ -117,6 +117,9 @@ void add_axis(const AxisChange& axis_change, const stage::State& state, Change& 
 
 Result<std::int64_t> to_hundredths(Duration period) {
   using Hundredths = std::chrono::duration<std::int64_t, std::centi>;
+  if (period <= Duration::zero()) {
+    return fail(Reason::out_of_range, "the period of the trigger is not above 0", "0.01 s to 100 s are possible");
+  }
   const auto whole = std::chrono::floor<Hundredths>(period);
   if (whole == period) return whole.count();
   return fail(Reason::not_representable,

@@ -110,22 +110,22 @@ Result<std::vector<Device*>> Stops::find_devices(std::string_view device, bool a
 
 void Stops::stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                  Answer<std::vector<DeviceStop>> answer) const {
-  if (!axes) return answer(tl::unexpected(axes.error()));
-  const auto devices = find_devices(device, !axes->empty());
+  const bool named = !axes || !axes->empty();
+  const auto devices = find_devices(device, named);
   if (!devices) return answer(tl::unexpected(devices.error()));
-  if (!axes->empty() && devices->size() != 1) {
+  if (named && devices->size() != 1) {
     return answer(fail(Reason::invalid_request, "the axes to be stopped are given without their device",
                        "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
   for (const Device* one : *devices) {
-    const bool has_axes = !one->whole().is_whole_device();
-    if (const auto good = has_axes ? check_axes(*axes, *one) : Result<void>(); !good) {
-      return answer(tl::unexpected(good.error()));
-    }
+    if (one->whole().is_whole_device()) continue;  // whatever axes are named, a mill is aborted
+    const auto good = axes ? check_axes(*axes, *one) : tl::unexpected(axes.error());
+    if (!good) return answer(tl::unexpected(good.error()));
   }
   const use::RequestContext context = admission_.context_of_stop(call);
   stop_each(*devices, context, std::move(answer),
-            [axes = *axes, context](StageController& controller, TimePoint now, StageController::OnStopped done) {
+            [axes = axes.value_or(stage::AxisSet()), context](StageController& controller, TimePoint now,
+                                                              StageController::OnStopped done) {
               controller.stop(axes, context, now, std::move(done));
             });
 }

@@ -98,8 +98,10 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerUnaryReactor* StartJog(grpc::CallbackServerContext* context, const v1::StartJogRequest* request,
                                      v1::StartJogResponse* response) override {
     const auto call = UnaryCall<v1::StartJogResponse>::start(response);
-    jogs_.start(to_acting_call(*context, *request), request->device(),
-                proto::to_jog_axes(request->axes(), names_of(*request)), answering_with_motion(call));
+    const auto leave =
+        jogs_.start(to_acting_call(*context, *request), request->device(),
+                    proto::to_jog_axes(request->axes(), names_of(*request)), answering_with_motion(call));
+    if (leave) call->when_cancelled(leave);
     return call.get();
   }
 

@@ -245,7 +245,7 @@ TEST(ToPulses, SpeedsAreSpokenOfAsSpeeds) {
   ASSERT_FALSE(slow);
   EXPECT_EQ(slow.error().message,
             "\"0.005um/s\" is not a whole number of pulses of 10 nm a second; the nearest is 0.01um/s");
-  EXPECT_EQ(slow.error().hint, "Ask for this, or let it be rounded.");
+  EXPECT_EQ(slow.error().hint, "Ask for this.");
 }
 
 TEST(ToPulses, RoundsToTheNearestOnlyWhenAsked) {
