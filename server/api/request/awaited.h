@@ -15,8 +15,8 @@
 
 namespace axisgate::api {
 
-// An Awaited reads a subscription until an item is wanted, the subscription ends, the time is over or the caller has
-// left. It then answers with the newest item, if any, or with the problem. Thread safe.
+// An Awaited reads a subscription until a wanted item comes, the subscription ends, the time is over or the caller has
+// left. It then answers with the problem of the subscription, or without one with the newest item. Thread safe.
 template <class Item>
 class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
  public:
@@ -43,11 +43,12 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
     if (self_) timeout_ = std::move(timeout);
   }
 
-  // Ends the wait of a caller that has left; nothing is answered.
+  // Ends the wait of a caller that has left, without an answer.
   void leave() { (void)end(); }
 
  private:
-  // A wake-up before this reads nothing: the subscription must not be closed while it is being opened.
+  // Allows reading. A wake-up before this reads nothing, because it could close the subscription while it is being
+  // opened.
   void opened() {
     {
       const std::lock_guard lock(mutex_);
@@ -104,8 +105,8 @@ class Awaited : public std::enable_shared_from_this<Awaited<Item>> {
     answer_(std::move(newest_));
   }
 
-  // Returns false if it has ended before. The subscription is closed without a lock, because it waits for a wake-up in
-  // progress, which takes them.
+  // Returns false if it has ended before. No lock is held while the subscription closes: closing waits for a wake-up in
+  // progress, which takes both locks.
   bool end() {
     Handle self;
     std::unique_ptr<server::Timeout> timeout;
