@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "clients/axisctl/hints.h"
+
 namespace axisgate::axisctl {
 namespace {
 
@@ -42,11 +44,13 @@ std::string short_name(v1::Reason reason) {
 }
 
 Failure to_failure(const v1::Problem& problem) {
-  return {exit_code(problem.reason()), short_name(problem.reason()), problem.message(), problem.hint()};
+  return {exit_code(problem.reason()), short_name(problem.reason()), problem.message(),
+          with_commands(problem.hint(), problem.axis())};
 }
 
 Failure to_usage(const Problem& problem) {
-  return {kUsage, std::string(name(problem.reason)), problem.message, problem.hint};
+  return {kUsage, std::string(name(problem.reason)), problem.message,
+          with_commands(problem.hint, problem.axis.value_or(0))};
 }
 
 }  // namespace axisgate::axisctl

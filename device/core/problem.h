@@ -82,7 +82,7 @@ struct Problem {
   Reason reason = Reason::unspecified;
   std::string message{};      // one sentence for a person: what, where, why
   std::string hint{};         // remedy; may be empty
-  std::optional<int> axis{};  // 1..3; nullopt if no single axis is concerned
+  std::optional<int> axis{};  // axis number, from 1; nullopt if no single axis is concerned
   std::string sent{};         // the line concerned, without terminator; may be empty
   std::string wire_reply{};   // the device's answer, unescaped; may be empty
 };

@@ -42,8 +42,8 @@ Result<void> Confirmations::check_settled() const {
   if (open == jobs.end()) return {};
   const bool fed = open->state == JobState::fed;
   return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(*open), name(open->state)),
-              fed ? "look at its workpiece, then say that it is done: `axisctl mill done`"
-                  : "look at the mill, then take the job out of the queue: `axisctl mill cancel`");
+              fed ? "look at its workpiece, then report it as done: `ReportJobDone`"
+                  : "look at the mill, then take the job out of the queue: `CancelJob`");
 }
 
 Result<void> Confirmations::check_next(JobNumber number) const {
@@ -68,7 +68,7 @@ Result<void> Confirmations::check_next(JobNumber number) const {
     return unfinished(fmt::format("its next tool is {}", first->setup.tool));
   }
   return fail(Reason::wrong_job_state, fmt::format("{} is before {}", text_of(*first), text_of(job)),
-              "confirm that one, or have it cancelled; `axisctl mill first` moves a job forward");
+              "confirm that one, or have it cancelled; `MoveJob` moves a job forward");
 }
 
 // A job that continues the workpiece of another job was checked with the heights of that job, so Z0 must be the same.
@@ -99,7 +99,7 @@ Result<void> Confirmations::check(const Job& job, TimePoint now) const {
               job.void_because.empty()
                   ? fmt::format("{} is not confirmed at the mill", text_of(job))
                   : fmt::format("{} is no longer confirmed at the mill, since {}", text_of(job), job.void_because),
-              "somebody at the mill confirms it: `axisctl mill confirm`");
+              "somebody at the mill confirms it: `ConfirmJob`");
 }
 
 void Confirmations::make_void(std::string_view why, TimePoint now) {

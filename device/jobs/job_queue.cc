@@ -40,8 +40,7 @@ void JobQueue::add(Job job, TimePoint now) {
 Result<Job*> JobQueue::find(JobNumber number) {
   const auto found = std::ranges::find(jobs_, number, &Job::number);
   if (found != jobs_.end()) return &*found;
-  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
-              "`axisctl mill queue` lists them");
+  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number), "`GetMill` lists them");
 }
 
 Job& JobQueue::at(JobNumber number) { return **find(number); }
@@ -61,7 +60,7 @@ Result<void> JobQueue::request(JobNumber number, JobEvent event, std::string_vie
   if (!job) return tl::unexpected(job.error());
   if (!next((*job)->state, event)) {
     return fail(Reason::wrong_job_state, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
-                "`axisctl mill queue` shows what can be done with it");
+                "`GetMill` shows what can be done with it");
   }
   change(**job, event, by, "", now);
   return {};

@@ -52,13 +52,15 @@ Result<void> Envelope::check_stage(int axis) const {
   const auto& stage = profile(axis).stage;
   const auto& reported = state_.axis(axis).scale;
   if (!stage || !reported || *reported == stage->pulse || !guarded(Guard::stage_of_profile)) return {};
-  return fail_on(axis, Reason::identity_mismatch,
-                 fmt::format("a pulse of {} is {} by the controller and {} by the profile of its stage, {}: "
-                             "another stage is plugged in, the divisions were changed, or the profile is wrong",
-                             label(axis), pulse_text(*reported), pulse_text(stage->pulse), stage->model),
-                 fmt::format("plug in the {}, set divisions that make {} of a pulse (`axisctl divisions`), or correct "
-                             "the profile that the configuration names as the axis's stage",
-                             stage->model, pulse_text(stage->pulse)));
+  return fail_on(
+      axis, Reason::identity_mismatch,
+      fmt::format("a pulse of {} is {} by the controller and {} by the profile of its stage, {}: "
+                  "another stage is plugged in, the divisions were changed, or the profile is wrong",
+                  label(axis), pulse_text(*reported), pulse_text(stage->pulse), stage->model),
+      fmt::format(
+          "plug in the {}, set divisions that make {} of a pulse (`ChangeSettings` with `divisions`), or correct "
+          "the profile that the configuration names as the axis's stage",
+          stage->model, pulse_text(stage->pulse)));
 }
 
 Result<void> Envelope::check_homed(int axis) const {
@@ -69,7 +71,7 @@ Result<void> Envelope::check_homed(int axis) const {
                  fmt::format("{} has not found its origin since the controller was started, or was last out of sight: "
                              "its travel limits mean nothing yet",
                              label(axis)),
-                 fmt::format("home it first: `axisctl home {}`", axis));
+                 "home it first: `Home`");
 }
 
 Result<void> Envelope::check_target(int axis, std::int64_t target) const {

@@ -18,7 +18,7 @@ Problem stopped_problem(const Latch& latch, TimePoint now) {
   return {.reason = Reason::stopped_by,
           .message = fmt::format("{} stopped {} ({} ago): your motions there are refused until you rearm", latch.by,
                                  to_string(latch.scope), for_people(now - latch.at)),
-          .hint = "find out why, then type `axisctl rearm`"};
+          .hint = "find out why, then rearm: `Rearm`"};
 }
 
 bool is_same_caller(const std::string& one, const std::string& other) {

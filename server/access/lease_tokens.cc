@@ -28,7 +28,7 @@ LeaseToken to_number(std::string_view bytes) {
 }
 
 tl::unexpected<Problem> refused(std::string message) {
-  return fail(Reason::lease_lost, std::move(message), "start another one: `axisctl lease run`");
+  return fail(Reason::lease_lost, std::move(message), "acquire another one: `AcquireLease`");
 }
 
 }  // namespace

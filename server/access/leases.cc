@@ -26,7 +26,7 @@ Problem Leases::lost_problem(LeaseToken token) const {
   return {
       .reason = Reason::lease_lost,
       .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + text_of(ended->ending),
-      .hint = "start another one: `axisctl lease run`"};
+      .hint = "acquire another one: `AcquireLease`"};
 }
 
 Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {
@@ -119,7 +119,7 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
   });
   if (next == waiting_.end()) {
     return fail(Reason::not_found, fmt::format("nobody named \"{}\" waits for {} alone", to, to_string(scope)),
-                "`axisctl lease list` shows who waits");
+                "`WatchLeases` shows who waits");
   }
   if (runs(token)) {
     return fail(Reason::axis_busy, "a motion runs under the lease", "hand it over when it has ended, or stop it");

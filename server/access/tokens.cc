@@ -146,7 +146,7 @@ Result<void> Tokens::revoke(const std::string& name, Calendar now) {
   const std::lock_guard lock(mutex_);
   const auto token = std::ranges::find_if(tokens_, [&](const Token& one) { return one.name == name && one.good(now); });
   if (token == tokens_.end()) {
-    return fail(Reason::not_found, "no good token has that name", "`axisctl token list` shows those there are");
+    return fail(Reason::not_found, "no good token has that name", "`ListTokens` shows those there are");
   }
   token->revoked = now;
   const Result<void> written = write();
@@ -168,12 +168,12 @@ Result<Token> Tokens::check(std::string_view token, Calendar now) const {
   const auto found = std::ranges::find(tokens_, hash, &Token::hash);
   if (found == tokens_.end()) {
     return fail(Reason::unauthenticated, "that token is not one of this daemon's",
-                "is it whole? an administrator makes one with `axisctl token create`");
+                "is it whole? an administrator makes one with `CreateToken`");
   }
   if (found->good(now)) return *found;
   return fail(Reason::unauthenticated,
               fmt::format("the token \"{}\" {}", found->name, found->revoked ? "was revoked" : "has expired"),
-              "an administrator makes another with `axisctl token create`");
+              "an administrator makes another with `CreateToken`");
 }
 
 std::vector<Token> Tokens::list() const {

@@ -159,7 +159,7 @@ std::optional<Ending> ending_on_record(const Journal& journal, const std::string
   const Reason reason = named(text_in(body, "reason"), kLastReason).value_or(Reason::outcome_unknown);
   return Ending{*state, Problem{.reason = reason,
                                 .message = "the daemon ended before it reported this; the details are not on record",
-                                .hint = fmt::format("look at `axisctl history --motion {}`", id)}};
+                                .hint = "look at the history of the motion: `ListHistory`"}};
 }
 
 // Returns the request as a fact, for a motion whose facts were not written.

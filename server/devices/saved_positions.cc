@@ -166,7 +166,7 @@ Result<SavedPositions::Number> SavedPositions::take_number(const std::string& de
     return fail(
         Reason::queue_full,
         fmt::format("all {} {} that the controller keeps have names", kNumbers, place ? "places" : "coordinates"),
-        "forget one: `axisctl positions` lists them, `axisctl forget NAME`");
+        "delete one: `ListPositions` lists them, `DeletePosition`");
   }
   taken_.push_back(taken);
   return Number(new int(taken.number), [this, taken](const int* number) {

@@ -228,13 +228,13 @@ Result<jobs::Job> ended_job(const spool::Spool& spool, const std::string& device
   const auto found = std::ranges::find(jobs, number, &spool::Job::id);
   if (found == jobs.end()) {
     return fail(Reason::not_found, fmt::format("job {} of {} is not kept", number, device),
-                "`axisctl history` shows what became of it; send its file again");
+                "`ListHistory` shows what became of it; send its file again");
   }
   jobs::Job job = job_of(*found);
   const Json facts = facts_in(*found);
   if (!found->ended) {
     return fail(Reason::wrong_job_state, fmt::format("{} has not ended", text_of(job)),
-                "`axisctl mill queue` shows what can be done with it");
+                "`GetMill` shows what can be done with it");
   }
   job.state = jobs::job_state_named(facts.value("ended_as", "")).value_or(jobs::JobState::cancelled);
   job.written = written_in(facts);

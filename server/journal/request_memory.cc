@@ -59,7 +59,7 @@ Result<void> RequestMemory::check_mark(std::string_view mark) const {
   if (mark.substr(0, dash) == epoch_ && number >= forgotten_) return {};
   return fail(Reason::request_memory_lost,
               "whether this request has come before is not known: the memory of request ids was lost in between",
-              "look at the stage and at `axisctl history`, then request it with a new id");
+              "look at the stage and at its history (`ListHistory`), then request it with a new id");
 }
 
 // Forgets old requests that have ended, oldest first, up to the first that must be kept. Returns the number up to which

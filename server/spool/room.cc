@@ -9,8 +9,8 @@ namespace axisgate::server::spool {
 namespace {
 
 constexpr std::string_view kMakeRoom =
-    "wait until jobs have ended, or take some out of the queue: `axisctl mill cancel JOB`; an administrator clears the "
-    "jobs of one caller: `axisctl mill clear WHO`";
+    "wait until jobs have ended, or take some out of the queue: `CancelJob`; an administrator clears the "
+    "jobs of one caller: `CancelJobs`";
 
 std::string size_text(std::int64_t bytes) {
   return bytes % kMebibyte == 0 ? fmt::format("{} MiB", bytes / kMebibyte) : fmt::format("{} bytes", bytes);

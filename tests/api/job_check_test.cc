@@ -94,7 +94,8 @@ TEST(AJobCheck, RefusesAllKindsOfWarningsAtOnce) {
       "most tools a pass of this depth breaks the tool; cut in several passes; right where the material was removed "
       "before. tool-left-down: line 2, column 1: the job ends with the tool down, 11.00 mm below the surface; end the "
       "job with the tool up");
-  EXPECT_EQ(refused.error().hint, "correct the job, or accept what is right: --accept deep-pass,tool-left-down");
+  EXPECT_EQ(refused.error().hint,
+            "correct the job, or accept what is right: `accepted_warnings` deep-pass,tool-left-down");
   const auto one = check({kDeepAndDown}, {"deep-pass"});
   ASSERT_FALSE(one);
   EXPECT_THAT(one.error().message,

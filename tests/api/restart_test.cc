@@ -118,7 +118,7 @@ TEST_F(MotionOfTheRunBefore, AnotherIsNotFoundAndTheJournalIsNamed) {
   const Result<CurrentMotion> motion = get(motion_name("turn", 77));
   ASSERT_FALSE(motion);
   EXPECT_EQ(motion.error().reason, Reason::not_found);
-  EXPECT_THAT(motion.error().hint, testing::HasSubstr("`axisctl history --motion 77`"));
+  EXPECT_THAT(motion.error().hint, testing::HasSubstr("`ListHistory`"));
 }
 
 }  // namespace

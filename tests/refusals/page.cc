@@ -30,12 +30,6 @@ std::string in_cell(std::string text) {
   return text;
 }
 
-// Replaces the command in "`axisctl commands M:`", so that the hint is the same for all commands.
-std::string for_all(std::string hint, const std::string& command) {
-  const auto at = hint.find(fmt::format("commands {}`", command));
-  return at == std::string::npos ? hint : hint.replace(at + 9, command.size(), "COMMAND");
-}
-
 struct Row {
   std::vector<std::string> commands;
   std::string cells;
@@ -79,7 +73,7 @@ std::string refusals_page(const std::vector<Outcome>& outcomes, const std::map<s
       const std::string hint = outcome.told.problem ? outcome.told.problem->hint : "";
       add(rows, code(outcome.one->sentence->command),
           fmt::format("{} | {} | {} | {}", code(reason), codes.contains(reason) ? codes.at(reason) : "-",
-                      outcome.sent ? "yes" : "no", in_cell(for_all(hint, outcome.one->sentence->command))));
+                      outcome.sent ? "yes" : "no", in_cell(hint)));
     }
     page += fmt::format("\n## {}\n\n{}.\n\n| commands | reason | gRPC | sent | what helps |\n|---|---|---|---|---|\n",
                         condition.name, condition.manual);

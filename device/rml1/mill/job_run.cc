@@ -53,7 +53,7 @@ Result<void> JobRun::check_sending(bool raise) const {
     case jobs::SenderState::paused:
       if (raise) return {};
       return refuse_paused(run_->number, "paused",
-                           "`axisctl mill resume` continues it; `axisctl mill pause --raise` raises its tool");
+                           "`ResumeJob` continues it; `PauseJob` with `raise_tool` raises its tool");
     case jobs::SenderState::raising:
       return refuse_paused(run_->number, "being paused", "its tool goes up after what was sent");
     default:
@@ -63,7 +63,7 @@ Result<void> JobRun::check_sending(bool raise) const {
   if (!run_ && paused != nullptr) {
     return refuse_paused(paused->number, "paused", "it continues once it is confirmed and started");
   }
-  return fail(Reason::wrong_job_state, "no job is being sent", "`axisctl mill watch` shows what the mill does");
+  return fail(Reason::wrong_job_state, "no job is being sent", "`WatchMill` shows what the mill does");
 }
 
 Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
@@ -72,10 +72,9 @@ Result<void> JobRun::check_pausable(bool raise, TimePoint now) {
   const bool has_rest = written < part_end(job());
   if (run_->sender.state() != jobs::SenderState::finishing && (has_rest || !raise)) return {};
   const bool last = is_last_part(job());
-  return fail(
-      Reason::wrong_job_state,
-      fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
-      last ? "`axisctl mill abort` ends it" : "its tool goes up by itself, and the job then waits for the next");
+  return fail(Reason::wrong_job_state,
+              fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
+              last ? "`AbortJob` ends it" : "its tool goes up by itself, and the job then waits for the next");
 }
 
 Result<void> JobRun::pause(bool raise, TimePoint now) {
@@ -88,9 +87,8 @@ Result<void> JobRun::pause(bool raise, TimePoint now) {
 
 Result<void> JobRun::check_resumable() const {
   if (run_ && run_->sender.state() == jobs::SenderState::paused) return {};
-  return fail(
-      Reason::wrong_job_state, "no job is paused with the tool in the cut",
-      "`axisctl mill queue` shows what the mill does; one that is PAUSED continues when it is confirmed and started");
+  return fail(Reason::wrong_job_state, "no job is paused with the tool in the cut",
+              "`GetMill` shows what the mill does; one that is PAUSED continues when it is confirmed and started");
 }
 
 void JobRun::resume(TimePoint now) {

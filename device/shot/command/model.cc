@@ -89,10 +89,10 @@ Result<Command> Model::parse(std::string_view text) const {
   if (wrong) return tl::unexpected(*std::move(wrong));
   if (const CommandRow* row = begun_by(text)) {
     return fail(Reason::malformed_line, fmt::format("\"{}\" has not the form of {}: {}", text, row->name, row->format),
-                fmt::format("`axisctl commands {}` explains the letters", row->name));
+                "`ListCommands` explains the letters");
   }
   return fail(Reason::unknown_command, fmt::format("\"{}\" is no command that the gateway knows", text),
-              "`axisctl commands` lists them with their parameters");
+              "`ListCommands` lists them with their parameters");
 }
 
 }  // namespace axisgate::shot

@@ -89,7 +89,7 @@ tl::unexpected<Problem> out_of_range(const CommandRow& row, const Parameter& par
   return fail(
       Reason::out_of_range,
       fmt::format("{} takes {} as {} ({}), not \"{}\"", row.name, allowed, parameter.letter, parameter.meaning, value),
-      "see `axisctl commands`");
+      "see `ListCommands`");
 }
 
 // Compares exactly, for any number of decimal places.

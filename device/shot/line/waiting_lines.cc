@@ -153,7 +153,7 @@ Problem WaitingLines::why_expired(const ExchangeRequest& request) const {
   if (!link_.port_open()) {
     return {.reason = Reason::link_down,
             .message = "the line to the controller is down",
-            .hint = "see `axisctl status` for the reason",
+            .hint = "see `GetDevice` for the reason",
             .sent = line};
   }
   if (!conflicts(request).empty()) {

@@ -26,39 +26,37 @@ bool ready(const CommandRow& row) { return row.needs.ready; }
 bool excited(const CommandRow& row) { return row.needs.excited; }
 bool no_limit(const CommandRow& row) { return row.needs.no_limit; }
 
-constexpr std::string_view kClear = "clear it once it is safe: axisctl clear";
+constexpr std::string_view kClear = "clear it once it is safe: `ClearErrors`";
 constexpr std::string_view kRestart =
-    "remove its cause and restart the controller: axisctl reset, or power off and on; `axisctl clear` does not clear "
-    "it";
+    "remove its cause and restart the controller: `ResetDevice`, or power off and on; `ClearErrors` does not clear it";
 
 constexpr AxisCondition kConditions[] = {
     {"emergency stop (bit 6)", bit<6>, motion, true, Reason::emergency_stopped, "is in emergency stop",
-     "release the button, then clear it once it is safe: axisctl clear"},
+     "release the button, then clear it once it is safe: `ClearErrors`"},
     {"scale error S1 (bit 3)", bit<3>, motion, true, Reason::device_error, "shows a scale error (S1)", kRestart},
     {"disconnection error S2 (bit 4)", bit<4>, motion, true, Reason::device_error, "shows that its cable is off (S2)",
      kRestart},
     {"hunting error S3 (bit 7)", bit<7>, motion, true, Reason::device_error, "shows a hunting error (S3)", kRestart},
     {"overflow error S4 (bit 5)", bit<5>, motion, true, Reason::device_error, "shows an overflow error (S4)", kClear},
     {"limit error S5 (bit 8)", bit<8>, motion, true, Reason::limit_detected, "has met its limit",
-     "clear it (axisctl clear), then move away from it"},
+     "clear it (`ClearErrors`), then move away from it"},
     {"counter overflow S6 (bit 9)", bit<9>, motion, true, Reason::device_error, "has counted beyond nine digits (S6)",
-     "set another coordinate here: axisctl zero {}"},
+     "set another coordinate here: `SetCoordinates`"},
     {"auto config error (bit 10)", bit<10>, motion, true, Reason::device_error, "shows an auto config error", kRestart},
     {"system error S7 (bit 13)", bit<13>, motion, true, Reason::device_error, "shows a system error (S7)", kRestart},
     {"overheat error S10 (bit 15)", bit<15>, motion, true, Reason::device_error,
-     "shows that its driver is too hot (S10)", "let it cool down, then restart the controller: axisctl reset"},
-    {"busy", busy, ready, false, Reason::axis_busy, "is moving",
-     "wait until it is stationary, or stop it: axisctl stop"},
+     "shows that its driver is too hot (S10)", "let it cool down, then restart the controller: `ResetDevice`"},
+    {"busy", busy, ready, false, Reason::axis_busy, "is moving", "wait until it is stationary, or stop it: `Stop`"},
     {"excitation off", off, excited, false, Reason::not_excited, "has its motor off",
-     "switch it on: axisctl motor {} on"},
+     "switch it on: `ChangeSettings` with `excited`"},
     {"limit sensor (bits 20, 21)", at_limit, no_limit, false, Reason::limit_detected, "is at its limit",
-     "move it away from there by itself: axisctl move {}=..."},
+     "move it away from there by itself: `Move`"},
 };
 
 Problem reported(const AxisCondition& condition, int axis) {
   return {.reason = condition.reason,
           .message = fmt::format("axis {} {}", axis, condition.what),
-          .hint = fmt::format(fmt::runtime(condition.hint), axis),
+          .hint = std::string(condition.hint),
           .axis = axis};
 }
 
@@ -114,7 +112,7 @@ Problem unexplained(std::string_view sent, AxisSet axes, const State& state) {
           .message = fmt::format(
               "the controller refused {} (NG), and nothing that it reports explains it: mode {}, format {}{}", sent,
               state.mode, state.format, facts),
-          .hint = "compare its parameters with `axisctl commands`, and check the controller's display",
+          .hint = "compare its parameters with `ListCommands`, and check the controller's display",
           .sent = std::string(sent),
           .wire_reply = "NG"};
 }

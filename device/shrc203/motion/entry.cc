@@ -53,7 +53,7 @@ Problem late(int busy, AxisSet outstanding) {
   if (busy != 0) {
     return {.reason = Reason::axis_busy,
             .message = fmt::format("axis {} did not stop in the time allowed", busy),
-            .hint = "wait until it is stationary, or stop it: axisctl stop",
+            .hint = "wait until it is stationary, or stop it: `Stop`",
             .axis = busy};
   }
   return {.reason = Reason::completion_outstanding,
@@ -93,7 +93,7 @@ Task<Result<void>> Entry::restore_pending(LiveMotionPtr live) {
   const bool disarmed = co_await restorer_.restore_trigger(live->context.who);
   if (disarmed) co_return Result<void>();
   co_return fail(Reason::device_refused, "the trigger that a scan has left armed could not be taken back",
-                 "see that nothing moves, and try again; or set it: axisctl trigger off");
+                 "see that nothing moves, and try again; or switch it off: `ChangeSettings` with `trigger`");
 }
 
 Task<Result<void>> Entry::clear_stale_setpoints(LiveMotionPtr live, Register reg) {

@@ -13,7 +13,7 @@ Result<void> Homes::check(MotionKind kind, AxisSet axes, const RequestContext& c
   if (controllable.empty()) return tl::unexpected(store_.not_up());
   if (axes.empty() || !controllable.contains(axes)) {
     return fail(Reason::unknown_axis, fmt::format("{} cannot all be controlled on this unit", to_string(axes)),
-                "see `axisctl status`");
+                "see `GetDevice`");
   }
   const Envelope limits = store_.envelope(context);
   for (const int axis : axes.list()) {

@@ -79,7 +79,7 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
     const auto& row = *command.row;
     if (row.meaning == Meaning::jog) {
       return fail(Reason::invalid_request, fmt::format("{} is for a jog, which runs until somebody stops it", row.name),
-                  "use `axisctl jog` or the method Jog, under which an axis stops when its caller falls silent");
+                  "use `Jog`, under which an axis stops when its caller falls silent");
     }
     const Waits waits = waits_of(command);
     if (waits.set && waits.cancelled) {
@@ -90,7 +90,7 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
     const bool is_start = row.meaning == Meaning::go;
     if (row.effect == Effect::stop && commands.size() > 1) {
       return fail(Reason::invalid_request, "a stop must be the only line: it goes before everything else",
-                  "send it by itself, or use `axisctl stop`");
+                  "send it by itself, or use `Stop`");
     }
     if (is_start && !set && guarded(Guard::no_bare_go)) {
       return fail(Reason::incomplete_transaction, fmt::format("{} alone would start whatever was set before", row.name),

@@ -21,7 +21,7 @@ Result<AxisSet> ErrorClearing::check(AxisSet axes, const RequestContext& context
   if (non_host_.away()) return tl::unexpected(non_host_.problem());
   if (open_stops_.including(store_.controllable(), StopKind::emergency) && guarded(Guard::emergency_cleared_for_all)) {
     return fail(Reason::stop_unconfirmed, "the emergency stop is not confirmed: nobody has seen the axes obey it",
-                "clear it once it is confirmed; `axisctl status` shows the open stops");
+                "clear it once it is confirmed; `GetDevice` shows the open stops");
   }
   const auto allowed = lifts_latch(named) ? rights_.check_epochs(context) : rights_.authorize(context, named);
   if (!allowed) return tl::unexpected(allowed.error());
@@ -52,7 +52,7 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   auto read = co_await reader_.read_excitation(context.who);
   if (read) read = co_await reader_.read_positions(Lane::question, context.who);
   if (!result.accepted()) {
-    done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
+    done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `GetDevice`"));
   } else if (!read) {
     done(tl::unexpected(read.error()));
   } else {

@@ -26,7 +26,7 @@ Problem refusal_of(const Command& command, Problem why) {
 Problem asleep_problem() {
   return {.reason = Reason::not_excited,
           .message = "the controller sleeps",
-          .hint = "wake it up: axisctl wake (the stage may move)"};
+          .hint = "wake it up: `ChangeSettings` with `sleeping` (the stage may move)"};
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ Problem Explainer::values_refused() const {
   }
   return {.reason = Reason::device_refused,
           .message = "it is in program edit mode, so it does not take that step, or something moves",
-          .hint = "compare the step with manual 114), and see that nothing moves: axisctl status"};
+          .hint = "compare the step with manual 114), and see that nothing moves: `GetDevice`"};
 }
 
 // Returns the refusal due to the program's status; nullopt if there is none. Status 1: runs, 2: pauses, 3: runs one
@@ -92,12 +92,12 @@ Task<std::optional<Problem>> Explainer::refusal_by_program(Command command, std:
   if (command.row->needs.ready && active) {
     co_return Problem{.reason = Reason::axis_busy,
                       .message = fmt::format("program {} {}", program->program, status == 2 ? "pauses" : "runs"),
-                      .hint = "wait for its end, or stop it: axisctl stop"};
+                      .hint = "wait for its end, or stop it: `Stop`"};
   }
   if (command.row->meaning == Meaning::program_pause && !active) {
     co_return Problem{.reason = Reason::device_refused,
                       .message = "no program runs that could pause",
-                      .hint = "let P:S run it; `axisctl stop` ends it"};
+                      .hint = "let P:S run it; `Stop` ends it"};
   }
   co_return std::nullopt;
 }
@@ -144,7 +144,7 @@ std::optional<Problem> Explainer::refusal_by_speeds(const Command& command, cons
         .reason = Reason::out_of_range,
         .message = fmt::format("axis {} would have a minimum speed S of {} above its maximum speed F of {} pulses/s",
                                axis, s, f),
-        .hint = fmt::format("set both at once: axisctl speed {} --minimum ... --maximum ...", axis),
+        .hint = "set both at once: `ChangeSettings` with `speeds`",
         .axis = axis};
   }
   return {};

@@ -47,7 +47,7 @@ Task<Result<void>> LeaseSettings::learn(const std::vector<Command>& commands, st
     if (!read) break;
     if (!store_.origin_speeds_known(origin)) {
       co_return fail(Reason::line_fault, "the speeds of the origin return were read as ones that no axis can have",
-                     "check them: axisctl exec ?:B");
+                     "check them: `Execute` ?:B");
     }
   }
   co_return read;

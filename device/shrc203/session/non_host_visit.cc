@@ -24,7 +24,7 @@ Result<void> program_outcome(const ProgramStatus& reported) {
   return fail(
       Reason::device_error,
       fmt::format("program {} stopped at line {}: {}", reported.program, reported.line, kWhy[std::size_t(status - 4)]),
-      "correct the line (P:SET), or remove what it met; see `axisctl status`");
+      "correct the line (P:SET), or remove what it met; see `GetDevice`");
 }
 
 std::optional<SwitchAudit::Values> values_of(const Reply& reply) {

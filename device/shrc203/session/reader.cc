@@ -174,7 +174,7 @@ Task<Result<void>> Reader::learn_speeds(AxisSet axes, std::string caller) {
   }
   if (!missing()) co_return Result<void>();
   co_return fail(Reason::line_fault, "the speeds of the axes were read as ones that no axis can have",
-                 "check them: axisctl exec ?:D; set them: axisctl exec D:...");
+                 "check them: `Execute` ?:D; set them: `Execute` D:...");
 }
 
 }  // namespace axisgate::shrc203

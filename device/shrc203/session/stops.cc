@@ -226,7 +226,7 @@ Problem Stops::unseen(const StopJob& job) const {
 
 void Stops::withdraw(StopId id, const RequestContext& context, const OnDone& done) {
   const StopJobPtr job = open_.find(id);
-  if (!job) return done(fail(Reason::not_found, fmt::format("stop {} is not open", id), "see `axisctl status`"));
+  if (!job) return done(fail(Reason::not_found, fmt::format("stop {} is not open", id), "see `GetDevice`"));
   job->stop.withdrawn_by = context.who;
   open_.change(job, StopEvent::abandoned);
   wake();
@@ -239,7 +239,7 @@ void Stops::cancel(MotionId id, const RequestContext& context, OnDone done) {
   if (!live && left.empty()) {
     return done(motions_.find(id)
                     ? Result<void>()
-                    : fail(Reason::not_found, fmt::format("there is no motion {}", id), "see `axisctl status`"));
+                    : fail(Reason::not_found, fmt::format("there is no motion {}", id), "see `GetDevice`"));
   }
   if (!live || live->life.has_turn()) {
     return stop(live ? live->motion.axes : left, StopKind::stop, context, [done](const StopReport& report) {

@@ -21,7 +21,7 @@ Problem not_confirmed(const Stop& stop, TimePoint now) {
   return {.reason = Reason::stop_unconfirmed,
           .message = fmt::format("the {} by {} ({} ago) is not confirmed: nobody has seen the axes obey it",
                                  title_of(stop), fmt::join(stop.callers, ", "), for_people(now - stop.asked)),
-          .hint = "try again once it is confirmed; `axisctl status` shows the open stops"};
+          .hint = "try again once it is confirmed; `GetDevice` shows the open stops"};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::optional<Problem> Rights::motion_forbidden(AxisSet axes) const {
         .reason = Reason::emergency_stopped,
         .message = fmt::format("{} requested an emergency stop {} ago, and nothing moves until it is cleared",
                                state.emergency->who, for_people(tasks_.now() - state.emergency->at)),
-        .hint = "make sure that motion is safe, then clear the errors of all axes: axisctl clear"};
+        .hint = "make sure that motion is safe, then clear the errors of all axes: `ClearErrors`"};
   }
   for (const Stop& stop : state.open_stops) {
     if (!stop.late || !stop.axes.touches(axes) || !guarded(Guard::open_stop_refuses_motion)) continue;

@@ -62,7 +62,7 @@ Result<NamedPerson> erased_in(Journal& journal, const std::string& who, const st
   if (!person) return tl::unexpected(unavailable(person.error()));
   if (!*person) {
     return fail(Reason::not_found, fmt::format("the journal has no caller \"{}\"", escaped(who)),
-                "give the whole name as `axisctl history` shows it, e.g. \"unix anna\"");
+                "give the whole name as `ListHistory` shows it, e.g. \"unix anna\"");
   }
   audit(RequestKind::erase_person, by, fmt::format("erased the name of caller {} from the journal", (*person)->number));
   return **person;

@@ -48,7 +48,7 @@ Result<jobs::Job> find_job(const jobs::Machine& mill, jobs::JobNumber number) {
   const auto found = std::ranges::find(mill.jobs(), number, &jobs::Job::number);
   if (found != mill.jobs().end()) return *found;
   return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
-              "`axisctl mill queue` lists them; `axisctl history` has those that have ended");
+              "`GetMill` lists them; `ListHistory` has those that have ended");
 }
 
 Result<void> check_in_time(const MillTurn& turn) {

@@ -86,7 +86,7 @@ Result<void> JobCheck::judge_errors() const {
   return fail(Reason::invalid_request,
               fmt::format("{}: error: {} [{}]{}", place_text(first->place), first->text, first->section,
                           first->more == 0 ? "" : fmt::format("; {} more errors", first->more)),
-              "correct the job; `axisctl mill check` shows all errors");
+              "correct the job");
 }
 
 void JobCheck::take_warnings() {
@@ -126,7 +126,7 @@ Result<void> JobCheck::judge_warnings() {
                 fmt::format("{} keep{} the job from the queue. {}",
                             refused.size() == 1 ? "a warning" : fmt::format("{} kinds of warnings", refused.size()),
                             refused.size() == 1 ? "s" : "", fmt::join(refused, ". ")),
-                fmt::format("correct the job, or accept what is right: --accept {}", fmt::join(names, ",")));
+                fmt::format("correct the job, or accept what is right: `accepted_warnings` {}", fmt::join(names, ",")));
   }
   for (const std::string& name : accepted_) {
     if (!warnings_.contains(name)) unused.push_back(name);

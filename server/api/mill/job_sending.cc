@@ -71,7 +71,7 @@ Result<void> check_has_rest(const jobs::Job& job) {
   return fail(Reason::wrong_job_state,
               fmt::format("{} is {}{}: it has no rest", text_of(job), name(job.state),
                           is_cut_off ? ", and was never begun" : ""),
-              fmt::format("`axisctl mill again {}` queues all of it", job.number));
+              "`RepeatJob` without `rest` queues all of it");
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ Result<jobs::Job> published_job(server::Mill& mill, jobs::JobNumber number) {
   const auto now = mill.newest().get().value;
   const auto found = std::ranges::find(now->jobs, number, &jobs::Job::number);
   if (found != now->jobs.end()) return *found;
-  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
-              "`axisctl mill queue` lists them");
+  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number), "`GetMill` lists them");
 }
 
 // Returns the problem of a job that was not read because of its published state, although its state allows that now. In

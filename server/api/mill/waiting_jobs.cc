@@ -34,7 +34,7 @@ Result<std::vector<jobs::JobNumber>> waiting_jobs_of(const std::string& who, con
   }
   if (!found.empty()) return found;
   return fail(Reason::not_found, fmt::format("no job of {} waits for {}", who, turn.device.name()),
-              "`axisctl mill queue` shows whose jobs wait; one that was begun is taken out by `axisctl mill cancel`");
+              "`GetMill` shows whose jobs wait; one that was begun is taken out by `CancelJob`");
 }
 
 }  // namespace

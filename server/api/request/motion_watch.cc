@@ -13,10 +13,11 @@ namespace axisgate::api {
 namespace {
 
 tl::unexpected<Problem> not_kept(const stage::StageController& controller, stage::MotionId id) {
-  return fail(Reason::not_found, fmt::format("there is no motion {} on {}", id, controller.profile().name),
-              fmt::format("the newest {} since the daemon started are kept, ListMotions shows them; `axisctl history "
-                          "--motion {}` may have it",
-                          stage::StageController::kMotionsKept, id));
+  return fail(
+      Reason::not_found, fmt::format("there is no motion {} on {}", id, controller.profile().name),
+      fmt::format("the newest {} since the daemon started are kept, `ListMotions` shows them; `ListHistory` may "
+                  "have it",
+                  stage::StageController::kMotionsKept));
 }
 
 }  // namespace
@@ -36,7 +37,7 @@ Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& kno
   if (known.open) return not_kept(controller, known.motion);
   if (auto problem = server::journal::problem_in(known.answer)) return tl::unexpected(*std::move(problem));
   if (auto motion = server::journal::motion_in(known.answer)) return *std::move(motion);
-  return fail(Reason::internal, "what became of the request cannot be read", "look at `axisctl history`");
+  return fail(Reason::internal, "what became of the request cannot be read", "look at the history: `ListHistory`");
 }
 
 void MotionSubscription::follow_from_now() {

@@ -74,7 +74,7 @@ Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_vi
   if (!device) return tl::unexpected(device.error());
   if (auto* stage = dynamic_cast<server::Stage*>(*device)) return stage;
   return fail(Reason::invalid_request, fmt::format("{} is a mill: it has no axes to move", escaped(name)),
-              "`axisctl mill` sends jobs to it");
+              "send jobs to it: `SendJob`");
 }
 
 Result<server::Mill*> find_mill(const server::Gateway& gateway, std::string_view name) {

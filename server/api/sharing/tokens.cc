@@ -72,7 +72,7 @@ void Tokens::cut_off(const std::string& token, const std::string& by) const {
   const std::string who = server::token_caller(token);
   streams_.cut_off(who, {.reason = Reason::unauthenticated,
                          .message = fmt::format("{} revoked the token {}", by, token),
-                         .hint = "an administrator makes another one with `axisctl token create`"});
+                         .hint = "an administrator makes another one with `CreateToken`"});
   for (const auto& device : gateway_.devices()) {
     device->post([who, by](server::Leases& leases, TimePoint now) { leases.cut_off(who, by, now); });
   }

@@ -24,7 +24,7 @@ using SavingPtr = std::shared_ptr<Saving>;
 Result<void> read_back(Saving& saving, const ExecuteEvent& ended, const stage::State& state) {
   if (ended.problem && ended.problem->reason == Reason::not_found) {
     return fail(Reason::device_refused, "the controller accepted the position, but does not have it",
-                "check its mode: axisctl status");
+                "check its mode: `GetDevice`");
   }
   if (ended.problem) return tl::unexpected(*ended.problem);
   SavedPosition& position = saving.position;

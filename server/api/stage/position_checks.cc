@@ -17,10 +17,7 @@ bool was_interrupted(const server::SavedPosition& position, const stage::State& 
   return !line || !position.frame || position.frame->device_epoch != state.device_epoch;
 }
 
-std::string again(const server::SavedPosition& position) {
-  return fmt::format("save it again where it shall be: axisctl save {}{}", position.name,
-                     position.place ? "" : " --coordinates");
-}
+constexpr const char* kAgain = "save it again where it shall be: `SavePosition`";
 
 }  // namespace
 
@@ -29,7 +26,7 @@ Result<void> check_unit(const server::SavedPosition& position, const stage::Stat
   return fail(Reason::epoch_passed,
               fmt::format("\"{}\" was saved in the controller {}, and this is {}", position.name,
                           position.serial_number, escaped(state.serial_number)),
-              again(position));
+              kAgain);
 }
 
 bool may_be_lost(const server::SavedPosition& position, const stage::State& state) {
@@ -50,7 +47,7 @@ Result<std::map<int, std::int64_t>> reported_coordinates(const server::SavedPosi
   if (!coordinates.empty()) return coordinates;
   return tl::unexpected(Problem{.reason = Reason::device_refused,
                                 .message = "the controller saved the position, and does not report its coordinates",
-                                .hint = "check its mode: axisctl status",
+                                .hint = "check its mode: `GetDevice`",
                                 .sent = question,
                                 .wire_reply = answers[0]});
 }
@@ -75,7 +72,7 @@ Problem refusal_of(Problem problem, const server::SavedPosition& position, const
         fmt::format("; the controller came back {} ago, and may have restarted{}", for_people(now - state.epoch_began),
                     position.place ? ", which deletes its saved positions" : "");
   }
-  problem.hint = again(position);
+  problem.hint = kAgain;
   return problem;
 }
 

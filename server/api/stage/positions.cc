@@ -19,7 +19,7 @@ Result<SavedPosition> find_position(const SavedPositions& positions, const std::
                                     const std::string& name) {
   if (auto position = positions.find(device, name)) return *std::move(position);
   return fail(Reason::not_found, fmt::format("no position is named \"{}\"", name),
-              "`axisctl positions` lists those that there are");
+              "`ListPositions` lists those there are");
 }
 
 // Returns the position's own name; empty if the full name was refused.

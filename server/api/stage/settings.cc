@@ -23,7 +23,7 @@ bool is_unread(const Problem& problem) {
 Problem not_answered(std::string_view question, const std::string& reply) {
   return {.reason = Reason::device_refused,
           .message = fmt::format("the controller refused {} ({})", question, reply),
-          .hint = "check its mode: axisctl status",
+          .hint = "check its mode: `GetDevice`",
           .sent = std::string(question),
           .wire_reply = reply};
 }
