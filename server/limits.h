@@ -25,6 +25,8 @@ inline constexpr Duration kExecuteGrace = std::chrono::milliseconds(100);
 inline constexpr Duration kSettingAnswerLimit = std::chrono::seconds(2);
 // Longest duration of a request's field; longer ones are cut to it.
 inline constexpr Duration kSpanMax = std::chrono::hours(24);
+// Time after the last piece of a job for which its pieces are kept.
+inline constexpr Duration kJobPiecesKept = std::chrono::minutes(10);
 // Shortest interval of a watched device's states.
 inline constexpr Duration kWatchIntervalMin = std::chrono::milliseconds(10);
 

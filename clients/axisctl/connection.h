@@ -63,14 +63,14 @@ class Connection {
     });
   }
 
-  // Like call(), for a request in several messages, at least one. The first message has the context. UploadSteps limits
+  // Like call(), for a request in several messages, at least one. The first message has the header. UploadSteps limits
   // the time of each message and of the answer.
   template <class Stub, class Request, class Response>
   Response upload(const std::unique_ptr<Stub>& stub,
                   std::unique_ptr<grpc::ClientAsyncWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*,
                                                                                     grpc::CompletionQueue*),
                   std::vector<Request> messages) const {
-    messages.front().mutable_context()->set_request_memory(request_memory_);
+    messages.front().mutable_header()->mutable_context()->set_request_memory(request_memory_);
     std::size_t bytes = 0;
     for (const Request& message : messages) bytes += message.ByteSizeLong();
     return attempt<Response>(true, upload_limit(bytes), [&](grpc::ClientContext& context, Response& response) {

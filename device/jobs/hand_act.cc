@@ -7,19 +7,24 @@
 namespace axisgate::jobs {
 namespace {
 
+std::string amount_text(const Quantity& amount) {
+  return fmt::format("{} {}", to_string(amount.value), symbol(amount.unit));
+}
+
 std::string step_text(const JogStep& step) {
   std::string text = "jog by";
   const char* between = " ";
-  for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
-    if (mm == 0) continue;
-    text += fmt::format("{}{} {:g} mm", between, axis, mm);
+  for (const auto& [axis, amount] : {std::pair('X', step.x), std::pair('Y', step.y), std::pair('Z', step.z)}) {
+    if (amount.value.digits == 0) continue;
+    text += fmt::format("{}{} {}", between, axis, amount_text(amount));
     between = ", ";
   }
-  return step.mm_per_s ? fmt::format("{} at {:g} mm/s", text, *step.mm_per_s) : text;
+  return step.speed ? fmt::format("{} at {}/s", text, amount_text(*step.speed)) : text;
 }
 
 std::string surface_text(const SetZ0& surface) {
-  return surface.at ? fmt::format("set Z0 to the machine coordinate {}", *surface.at) : "set Z0 to where the tool is";
+  if (!surface.at) return "set Z0 to where the tool is";
+  return fmt::format("set Z0 to the machine coordinate {}", amount_text(*surface.at));
 }
 
 }  // namespace

@@ -1,22 +1,23 @@
 // Acts by hand: operations of a machine that a person requests while no job runs.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
+
+#include "device/core/quantity.h"
 
 namespace axisgate::jobs {
 
 // A JogStep moves the tool relative to its present position; positive Z is up.
 struct JogStep {
-  double x_mm = 0, y_mm = 0, z_mm = 0;
-  std::optional<double> mm_per_s{};  // nullopt: the machine's default speed in Z
+  Quantity x{}, y{}, z{};           // a pulse is a step of the machine's coordinates
+  std::optional<Quantity> speed{};  // nullopt: the machine's default speed in Z
 };
 
 // Sets Z0 for later jobs. X and Y can be set only at the machine's panel.
 struct SetZ0 {
-  std::optional<std::int64_t> at{};  // machine coordinate, in steps; nullopt: the present height of the tool
+  std::optional<Quantity> at{};  // machine coordinate; nullopt: the present height of the tool
 };
 
 struct TurnSpindle {

@@ -10,12 +10,13 @@
 #include "server/devices/spooled_jobs.h"
 #include "server/proto/amounts.h"
 #include "server/proto/callers.h"
+#include "server/proto/digest.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
 namespace {
 
-constexpr double kLongestStock = 10'000;  // mm; the same limit as in axisctl
+constexpr double kLongestStock = 10'000;  // mm
 
 using jobs::JobState;
 using jobs::SenderState;
@@ -49,6 +50,33 @@ v1::JobPlace place_of(const jobs::Place& place) {
   return proto;
 }
 
+v1::Distance millimeters(double mm) {
+  return to_distance({.value = decimal_of(mm, true).value_or(Decimal{}), .unit = Unit::millimeters});
+}
+
+// Fails with unknown_unit if the distance is in pulses or degrees: the size of a workpiece is not in steps of a mill.
+Result<double> to_mm(const v1::Distance& distance) {
+  const Result<Quantity> length = to_quantity(distance);
+  if (!length) return tl::unexpected(length.error());
+  if (length->unit == Unit::pulses || length->unit == Unit::degrees) {
+    return fail(Reason::unknown_unit, fmt::format("a workpiece has no size in {}", symbol(length->unit)),
+                "use mm, um or nm");
+  }
+  const double unit_mm = length->unit == Unit::millimeters ? 1 : length->unit == Unit::micrometers ? 1e-3 : 1e-6;
+  return std::stod(to_string(length->value)) * unit_mm;
+}
+
+Result<jobs::Stock> to_stock(const v1::Stock& stock) {
+  const Result<double> x = to_mm(stock.x()), y = to_mm(stock.y()), z = to_mm(stock.z());
+  for (const auto& length : {x, y, z}) {
+    if (!length) return tl::unexpected(length.error());
+    if (*length > 0 && *length <= kLongestStock) continue;
+    return fail(Reason::invalid_request, "the workpiece has no size, or one that cannot be",
+                fmt::format("give its three lengths, each above 0 and at most {} mm", kLongestStock));
+  }
+  return jobs::Stock{*x, *y, *z};
+}
+
 v1::JobSetup setup_of(const jobs::JobSetup& setup) {
   v1::JobSetup proto;
   proto.set_digest(setup.digest);
@@ -56,7 +84,7 @@ v1::JobSetup setup_of(const jobs::JobSetup& setup) {
   proto.set_origin(setup.origin);
   proto.set_tool(setup.tool);
   *proto.mutable_left() = {setup.left.begin(), setup.left.end()};
-  if (setup.from) *proto.mutable_from() = place_of(*setup.from);
+  if (setup.from) *proto.mutable_start() = place_of(*setup.from);
   return proto;
 }
 
@@ -135,9 +163,9 @@ v1::Job to_proto(std::string_view mill, const jobs::Job& job, const server::Mome
   if (job.executed) *proto.mutable_executed() = to_proto(*job.executed);
   if (job.continues != 0) proto.set_continues(api::job_name(mill, job.continues));
   if (job.stock) {
-    proto.mutable_stock()->set_x_mm(job.stock->x);
-    proto.mutable_stock()->set_y_mm(job.stock->y);
-    proto.mutable_stock()->set_z_mm(job.stock->z);
+    *proto.mutable_stock()->mutable_x() = millimeters(job.stock->x);
+    *proto.mutable_stock()->mutable_y() = millimeters(job.stock->y);
+    *proto.mutable_stock()->mutable_z() = millimeters(job.stock->z);
   }
   for (const std::string& warning : job.accepted) proto.add_accepted_warnings(warning);
   add_parts(job, proto);
@@ -225,34 +253,47 @@ v1::Device device_of(const api::MillState& state) {
 jobs::JobSetup to_setup(const v1::JobSetup& proto) {
   jobs::JobSetup setup{
       proto.digest(), proto.profile(), proto.origin(), proto.tool(), {proto.left().begin(), proto.left().end()}};
-  if (proto.has_from()) {
-    const v1::JobPlace& from = proto.from();
+  if (proto.has_start()) {
+    const v1::JobPlace& from = proto.start();
     setup.from = {static_cast<std::uint64_t>(from.byte()), static_cast<std::uint64_t>(from.line()),
                   static_cast<std::uint64_t>(from.column())};
   }
   return setup;
 }
 
+Result<jobs::JogStep> to_step(const v1::JogStep& proto) {
+  jobs::JogStep step;
+  const auto read = [](bool is_set, const auto& amount, auto& into) -> Result<void> {
+    if (!is_set) return {};
+    return to_quantity(amount).map([&into](const Quantity& quantity) { into = quantity; });
+  };
+  Result<void> good = read(proto.has_x(), proto.x(), step.x);
+  if (good) good = read(proto.has_y(), proto.y(), step.y);
+  if (good) good = read(proto.has_z(), proto.z(), step.z);
+  if (good) good = read(proto.has_speed(), proto.speed(), step.speed);
+  if (!good) return tl::unexpected(good.error());
+  return step;
+}
+
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) {
-  const auto given = [](bool has, auto value) { return has ? std::optional(value) : std::nullopt; };
   switch (request.act_case()) {
-    case v1::OperateMillRequest::kStep: {
-      const v1::JogStep& step = request.step();
-      return api::HandRequest{
-          jobs::JogStep{step.x_mm(), step.y_mm(), step.z_mm(), given(step.has_mm_per_s(), step.mm_per_s())}};
-    }
+    case v1::OperateMillRequest::kStep:
+      return to_step(request.step()).map([](const jobs::JogStep& step) { return api::HandRequest{step}; });
     case v1::OperateMillRequest::kSurface: {
       const v1::SetZ0& surface = request.surface();
-      return api::HandRequest{jobs::SetZ0{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
+      if (!surface.has_z()) return api::HandRequest{jobs::SetZ0{}, surface.origin()};
+      return to_quantity(surface.z()).map([&](const Quantity& z) {
+        return api::HandRequest{jobs::SetZ0{z}, surface.origin()};
+      });
     }
     case v1::OperateMillRequest::kSpindle:
       return api::HandRequest{jobs::TurnSpindle{request.spindle()}};
-    case v1::OperateMillRequest::kRaise:
+    case v1::OperateMillRequest::kRaiseTool:
       return api::HandRequest{jobs::RaiseTool{}};
     case v1::OperateMillRequest::ACT_NOT_SET:
       break;
   }
-  return fail(Reason::invalid_request, "the request names no act", "set step, surface, spindle or raise");
+  return fail(Reason::invalid_request, "the request names no act", "set step, surface, spindle or raise_tool");
 }
 
 api::LineToChoose to_line(std::int64_t line, std::int64_t column) {
@@ -266,39 +307,41 @@ api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request) {
           {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
 }
 
-Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
+Result<api::JobToSend> to_job(const v1::JobHeader& header) {
   api::JobToSend job{
-      request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
-  job.made_for = request.made_for();
-  job.continues = request.continues();
-  if (request.has_stock()) {
-    const v1::Stock& stock = request.stock();
-    job.stock = jobs::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};
-    const auto is_length = [](double mm) { return mm > 0 && mm <= kLongestStock; };
-    if (!is_length(stock.x_mm()) || !is_length(stock.y_mm()) || !is_length(stock.z_mm())) {
-      return fail(Reason::invalid_request, "the workpiece has no size, or one that cannot be",
-                  fmt::format("give its three lengths in mm, each above 0 and at most {}", kLongestStock));
-    }
+      header.title(), header.origin(), {}, {header.accepted_warnings().begin(), header.accepted_warnings().end()}};
+  job.made_for = header.made_for();
+  job.continues = header.continues();
+  if (header.has_stock()) {
+    const Result<jobs::Stock> stock = to_stock(header.stock());
+    if (!stock) return tl::unexpected(stock.error());
+    job.stock = *stock;
   }
-  if (!v1::Streaming_IsValid(request.streaming())) {
-    return fail(Reason::invalid_request, fmt::format("there is no streaming {}", static_cast<int>(request.streaming())),
+  if (!v1::Streaming_IsValid(header.streaming())) {
+    return fail(Reason::invalid_request, fmt::format("there is no streaming {}", static_cast<int>(header.streaming())),
                 "use PACED or FULL, or leave it out");
   }
-  if (request.streaming() != v1::STREAMING_UNSPECIFIED) {
-    job.streaming = request.streaming() == v1::STREAMING_FULL ? jobs::Streaming::full : jobs::Streaming::paced;
+  if (header.streaming() != v1::STREAMING_UNSPECIFIED) {
+    job.streaming = header.streaming() == v1::STREAMING_FULL ? jobs::Streaming::full : jobs::Streaming::paced;
   }
-  if (request.parts().empty()) {
-    job.parts.push_back({request.tool()});
+  if (header.parts().empty()) {
+    job.parts.push_back({header.tool()});
     return job;
   }
-  if (!request.tool().empty()) {
+  if (!header.tool().empty()) {
     return fail(Reason::invalid_request, "the job has a tool, and parts with tools of their own",
                 "name the tool of each part only");
   }
-  for (const v1::JobPart& part : request.parts()) {
+  for (const v1::JobPart& part : header.parts()) {
     job.parts.push_back({part.tool(), static_cast<std::uint64_t>(std::max<std::int64_t>(part.bytes(), 0))});
   }
   return job;
+}
+
+std::string job_digest(std::string_view header_digest, const std::string& bytes_digest) {
+  v1::SendJobRequest data;
+  data.set_data(bytes_digest);
+  return digest_of(header_digest, data);
 }
 
 }  // namespace axisgate::proto

@@ -28,7 +28,10 @@ jobs::JobSetup to_setup(const v1::JobSetup& proto);
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
 // Reads the first message of a job. Fails with invalid_request if the job has both a tool and parts, an unknown
 // streaming, or a workpiece without a valid size.
-Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
+Result<api::JobToSend> to_job(const v1::JobHeader& header);
+// Returns the digest of the whole request from the digest of its header and the SHA-256 of the job's bytes, so that it
+// does not depend on the division into messages.
+std::string job_digest(std::string_view header_digest, const std::string& bytes_digest);
 // A `line` of 0 means no line; a `column` of 0 means the first one.
 api::LineToChoose to_line(std::int64_t line, std::int64_t column);
 api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request);

@@ -32,7 +32,7 @@ Reason start_path(World& world, const Call& call) {
 bool is_unary_form(RequestKind kind) {
   using Kind = RequestKind;
   return kind == Kind::renew_lease || kind == Kind::start_path || kind == Kind::start_jog || kind == Kind::keep_jog ||
-         kind == Kind::stop_jog || kind == Kind::wait_motion;
+         kind == Kind::stop_jog || kind == Kind::wait_motion || kind == Kind::send_job_piece;
 }
 
 Reason ask_unary_form(World& world, RequestKind kind, const Call& call) {
@@ -55,6 +55,13 @@ Reason ask_unary_form(World& world, RequestKind kind, const Call& call) {
       Asking<CurrentMotion> stopped;
       world.api->jogs.stop(call, kUnknownMotion, stopped.answer());
       return stopped.reason();
+    }
+    case RequestKind::send_job_piece: {
+      Asking<PieceTaken> taken;
+      Call named = call;
+      named.request_id = "piece-1";
+      world.api->mill.pieces.take(named, kDevice, JobToSend{}, {}, taken.answer());
+      return taken.reason();
     }
     default: {
       Asking<CurrentMotion> ended;

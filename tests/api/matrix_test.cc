@@ -106,6 +106,8 @@ const std::vector<Row> kRows = {
     // Requests for mills are refused, because the device is not a mill.
     {Kind::send_job, "send_job", Role::operator_, "stream", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
+    {Kind::send_job_piece, "send_job_piece", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
     {Kind::repeat_job, "repeat_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
     {Kind::get_mill, "get_mill", Role::observer, "request", Asks::nothing, Reason::invalid_request,

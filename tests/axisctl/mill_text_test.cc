@@ -247,17 +247,17 @@ TEST(MillTexts, WhatIsSetUpForALaterPart) {
 
 TEST(MillTexts, WhatIsSetUpForTheRestOfAJob) {
   v1::Job job = frame(7, v1::JOB_STATE_PAUSED);
-  job.mutable_setup()->mutable_from()->set_line(12);
-  job.mutable_setup()->mutable_from()->set_column(40);
+  job.mutable_setup()->mutable_start()->set_line(12);
+  job.mutable_setup()->mutable_start()->set_column(40);
   EXPECT_EQ(setup_lines(job).back(), "  continues at line 12, column 40");
   EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is as it was, and nothing is in the way? [yes/no]");
 }
 
 TEST(MillTexts, TheWorkpieceOfAJob) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
-  job.mutable_stock()->set_x_mm(80);
-  job.mutable_stock()->set_y_mm(50);
-  job.mutable_stock()->set_z_mm(10.5);
+  job.mutable_stock()->mutable_x()->set_mm("80");
+  job.mutable_stock()->mutable_y()->set_mm("50");
+  job.mutable_stock()->mutable_z()->set_mm("10.5");
   EXPECT_EQ(setup_lines(job)[1], "  material  80 x 50 x 10.5 mm");
 }
 
@@ -322,7 +322,7 @@ TEST(MillQueue, APartOfAJob) {
 TEST(MillQueue, WhereAJobContinues) {
   v1::Mill mill;
   v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_PAUSED));
-  job.mutable_setup()->mutable_from()->set_line(8);
+  job.mutable_setup()->mutable_start()->set_line(8);
   EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED (line 8)  T1"));
   job.set_state(v1::JOB_STATE_PAUSED_UNKNOWN);
   EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED_UNKNOWN  T1")) << "that was before the line broke";

@@ -42,18 +42,17 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
             "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s, paced; after an abort at most 64 bytes, up to "
             "3.2 s and 14 mm, run on\n");
   ASSERT_EQ(mill_.sent.size(), 2U);
-  const v1::SendJobRequest& first = mill_.sent[0];
+  const v1::JobHeader& first = mill_.sent[0].header();
   EXPECT_EQ(first.device(), "devices/mill");
   EXPECT_EQ(first.title(), "frame.rml");
   EXPECT_EQ(first.tool(), "T1");  // the first tool of the mill
   EXPECT_EQ(first.origin(), "");
   EXPECT_THAT(first.accepted_warnings(), ElementsAre("deep-pass", "outside-stock"));
   EXPECT_EQ(first.streaming(), v1::STREAMING_FULL);
-  EXPECT_EQ(first.stock().x_mm(), 80);
-  EXPECT_EQ(first.stock().y_mm(), 50);
-  EXPECT_EQ(first.stock().z_mm(), 10.5);
+  EXPECT_EQ(first.stock().x().mm(), "80");
+  EXPECT_EQ(first.stock().y().mm(), "50");
+  EXPECT_EQ(first.stock().z().mm(), "10.5");
   EXPECT_EQ(first.made_for(), "mdx-20");
-  EXPECT_EQ(first.data(), "");
   EXPECT_THAT(first.context().request_id(), HasSubstr("axisctl-"));
   EXPECT_EQ(first.context().request_memory(), "since noon");
   EXPECT_EQ(mill_.sent[1].data(), "^IN;PU0,0;");
@@ -72,9 +71,9 @@ TEST_F(MillSend, WhatWasNamedIsSent) {
   options_.job.tools = {"T2"};
   options_.job.origin = "vice";
   EXPECT_EQ(run("mill send").exit_code, kDone);
-  EXPECT_EQ(mill_.sent[0].title(), "lid");
-  EXPECT_EQ(mill_.sent[0].tool(), "T2");
-  EXPECT_EQ(mill_.sent[0].origin(), "vice");
+  EXPECT_EQ(mill_.sent[0].header().title(), "lid");
+  EXPECT_EQ(mill_.sent[0].header().tool(), "T2");
+  EXPECT_EQ(mill_.sent[0].header().origin(), "vice");
 }
 
 // axisctl itself refuses names that are not valid titles: the daemon's message would not name the option --title.
@@ -89,7 +88,7 @@ TEST_F(MillSend, AFileWhoseNameIsNoTitleNeedsOne) {
     EXPECT_THAT(mill_.sent, IsEmpty());
     options_.job.title = "lid";
     EXPECT_EQ(run("mill send").exit_code, kDone) << name;
-    EXPECT_EQ(mill_.sent[0].title(), "lid");
+    EXPECT_EQ(mill_.sent[0].header().title(), "lid");
     mill_.sent.clear();
   }
 }
@@ -100,7 +99,7 @@ TEST_F(MillSend, SeveralFilesAreThePartsOfOneJob) {
   options_.job.tools = {"T1", "T3"};
   EXPECT_EQ(run("mill send").exit_code, kDone);
   ASSERT_EQ(mill_.sent.size(), 3U);
-  const v1::SendJobRequest& first = mill_.sent[0];
+  const v1::JobHeader& first = mill_.sent[0].header();
   EXPECT_EQ(first.title(), "frame.rml and 1 more");
   EXPECT_EQ(first.tool(), "");
   ASSERT_EQ(first.parts_size(), 2);
@@ -125,7 +124,7 @@ TEST_F(MillSend, EachFileNeedsATool) {
 TEST_F(MillSend, AMillWithoutTools) {
   mill_.mill.clear_tools();
   EXPECT_EQ(run("mill send").exit_code, kDone);
-  EXPECT_EQ(mill_.sent[0].tool(), "");
+  EXPECT_EQ(mill_.sent[0].header().tool(), "");
 }
 
 TEST_F(MillSend, InPieces) {
@@ -148,7 +147,7 @@ TEST_F(MillSend, ALostAnswerIsRequestedAgainWithTheSameId) {
   EXPECT_EQ(run("mill send").exit_code, kDone);
   EXPECT_THAT(mill_.calls, ElementsAre("ListDevices", "GetMill", "SendJob", "SendJob"));
   EXPECT_EQ(mill_.sent.size(), 2U);
-  EXPECT_EQ(mill_.sent[0].context().request_id(), "lid-1");
+  EXPECT_EQ(mill_.sent[0].header().context().request_id(), "lid-1");
 }
 
 TEST_F(MillSend, ARefusal) {
@@ -207,13 +206,13 @@ TEST_F(MillCalls, PauseRaisesWhereThatIsRequested) {
   mill_.mill.mutable_running()->set_sending(v1::SENDING_STATE_RAISING);
   options_.job.raise = true;
   EXPECT_THAT(run("mill pause").output, HasSubstr("; then the tool is raised and the spindle stops\n"));
-  EXPECT_TRUE(mill_.paused.at(0).raise());
+  EXPECT_TRUE(mill_.paused.at(0).raise_tool());
 }
 
 TEST_F(MillCalls, ResumeOfAJobChoosesWhereItGoesOn) {
   v1::Job& job = add_job(v1::JOB_STATE_PAUSED);
-  job.mutable_setup()->mutable_from()->set_line(12);
-  job.mutable_setup()->mutable_from()->set_column(40);
+  job.mutable_setup()->mutable_start()->set_line(12);
+  job.mutable_setup()->mutable_start()->set_column(40);
   options_.job.number = 7;
   for (const char* from : {"12", "12:40"}) {
     options_.job.from = from;

@@ -124,7 +124,7 @@ class MillRepeat(unittest.TestCase):
         self.assertRegex(self.run_well("again", first), rf"\Ajob {int(first) + 1} \(frame\) QUEUED; takes ")
         queue = json.loads(self.daemon.run("--json", "mill", "queue").stdout)
         again = queue["jobs"][0]
-        self.assertEqual((again["setup"]["tool"], again["setup"]["origin"], again["stock"]["x_mm"]), ("T2", "vice", 50))
+        self.assertEqual((again["setup"]["tool"], again["setup"]["origin"], again["stock"]["x"]["mm"]), ("T2", "vice", "50"))
         self.assertEqual(again["continues"], "", "the workpiece is new")
         self.refused("NOT_CONFIRMED", "start")
         self.finish(again["name"].rpartition("/")[2])

@@ -44,87 +44,60 @@ class RpcMill : public RpcTest {
     std::get<server::MillConfig>(config.devices.back().family).station = {station_};
   }
 
-  grpc::Status send(const std::string& job, v1::Job* sent = nullptr, const std::string& tool = "T1",
-                    const std::string& id = "", v1::Streaming streaming = v1::STREAMING_UNSPECIFIED) {
+  // Sends the header and the pieces, one message each.
+  grpc::Status upload(const v1::JobHeader& header, const std::vector<std::string>& pieces, v1::Job* sent = nullptr) {
     grpc::ClientContext context;
     limit(context);
     v1::SendJobResponse response;
     const auto writer = stub_->SendJob(&context, &response);
-    v1::SendJobRequest request;
-    request.mutable_context()->set_request_id(id);
-    request.set_device(kMill);
-    request.set_title("part.rml");
-    request.set_tool(tool);
-    request.set_streaming(streaming);
-    const std::size_t half = job.size() / 2;
-    request.set_data(job.substr(0, half));
-    writer->Write(request);
-    v1::SendJobRequest rest;
-    rest.set_data(job.substr(half));
-    writer->Write(rest);
-    writer->WritesDone();
-    const grpc::Status status = writer->Finish();
-    if (sent != nullptr) *sent = response.job();
-    return status;
-  }
-  grpc::Status send_whole(v1::SendJobRequest request, v1::Job* sent = nullptr) {
-    grpc::ClientContext context;
-    limit(context);
-    v1::SendJobResponse response;
-    const auto writer = stub_->SendJob(&context, &response);
-    request.set_title("part.rml");
-    request.set_tool("T1");
-    writer->Write(request);
-    writer->WritesDone();
-    const grpc::Status status = writer->Finish();
-    if (sent != nullptr) *sent = response.job();
-    return status;
-  }
-  // One upload with an id of its own, in messages of so many bytes.
-  grpc::Status send_in_pieces(const std::string& job, std::size_t piece, const std::string& title, v1::Job* sent) {
-    grpc::ClientContext context;
-    limit(context);
-    v1::SendJobResponse response;
-    const auto writer = stub_->SendJob(&context, &response);
-    v1::SendJobRequest request;
-    request.mutable_context()->set_request_id("pieces-1");
-    request.set_device(kMill);
-    request.set_title(title);
-    request.set_tool("T1");
-    for (std::size_t at = 0; at < job.size(); at += piece) {
-      request.set_data(job.substr(at, piece));
-      writer->Write(request);
-      request.Clear();
+    v1::SendJobRequest message;
+    *message.mutable_header() = header;
+    writer->Write(message);
+    for (const std::string& piece : pieces) {
+      message.set_data(piece);
+      writer->Write(message);
     }
     writer->WritesDone();
     const grpc::Status status = writer->Finish();
-    *sent = response.job();
+    if (sent != nullptr) *sent = response.job();
     return status;
+  }
+  static v1::JobHeader header_of(const std::string& id, const std::string& title = "part.rml") {
+    v1::JobHeader header;
+    header.mutable_context()->set_request_id(id);
+    header.set_device(kMill);
+    header.set_title(title);
+    header.set_tool("T1");
+    return header;
+  }
+  grpc::Status send(const std::string& job, v1::Job* sent = nullptr, const std::string& tool = "T1",
+                    const std::string& id = "", v1::Streaming streaming = v1::STREAMING_UNSPECIFIED) {
+    v1::JobHeader header = header_of(id);
+    header.set_tool(tool);
+    header.set_streaming(streaming);
+    const std::size_t half = job.size() / 2;
+    return upload(header, {job.substr(0, half), job.substr(half)}, sent);
+  }
+  // One upload with an id of its own, in messages of so many bytes.
+  grpc::Status send_in_pieces(const std::string& job, std::size_t piece, const std::string& title, v1::Job* sent) {
+    std::vector<std::string> pieces;
+    for (std::size_t at = 0; at < job.size(); at += piece) pieces.push_back(job.substr(at, piece));
+    return upload(header_of("pieces-1", title), pieces, sent);
   }
   // Each is a tool and its bytes; `more` bytes come, or fewer.
   using Parts = std::vector<std::pair<std::string, std::string>>;
   grpc::Status send_parts(const Parts& parts, v1::Job* sent = nullptr, int more = 0, const std::string& tool = "") {
-    grpc::ClientContext context;
-    limit(context);
-    v1::SendJobResponse response;
-    const auto writer = stub_->SendJob(&context, &response);
-    v1::SendJobRequest request;
-    request.mutable_context()->set_request_id("parts-1");
-    request.set_device(kMill);
-    request.set_tool(tool);
-    request.set_title("part.rml");
+    v1::JobHeader header = header_of("parts-1");
+    header.set_tool(tool);
+    std::string bytes;
     for (const auto& [name, job] : parts) {
-      v1::JobPart& part = *request.add_parts();
+      v1::JobPart& part = *header.add_parts();
       part.set_tool(name);
       part.set_bytes(static_cast<std::int64_t>(job.size()));
-      *request.mutable_data() += job;
+      bytes += job;
     }
-    request.mutable_data()->resize(request.data().size() + static_cast<std::size_t>(more), ';');
-    writer->Write(request);
-    writer->WritesDone();
-    const grpc::Status status = writer->Finish();
-    if (sent != nullptr) *sent = response.job();
-    return status;
+    bytes.resize(bytes.size() + static_cast<std::size_t>(more), ';');
+    return upload(header, {bytes}, sent);
   }
   v1::Job sent(const std::string& job, const std::string& id = "") {
     v1::Job made;

@@ -261,7 +261,7 @@ TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
   v1::OperateMillRequest request;
   request.set_device(kMill);
   request.mutable_context()->set_request_id("step-1");
-  request.mutable_step()->set_x_mm(5);
+  request.mutable_step()->mutable_x()->set_mm("5");
   v1::OperateMillResponse first, again;
   ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &first).ok());
   EXPECT_GT(first.longest_time().seconds(), 0);
@@ -288,14 +288,14 @@ TEST_F(RpcMillWithOrigin, Z0IsAtAnOriginOrAtAHeightAndNotAtBoth) {
   v1::OperateMillRequest request;
   request.set_device(kMill);
   request.mutable_surface()->set_origin("vice");
-  request.mutable_surface()->set_z(-40);
+  request.mutable_surface()->mutable_z()->set_pulses(-40);
   const grpc::Status both = ask(&v1::MillService::Stub::OperateMill, request);
   EXPECT_EQ(reason(both), v1::REASON_INVALID_REQUEST);
-  EXPECT_THAT(both.error_message(), HasSubstr("both at the origin \"vice\" and at z = -40"));
+  EXPECT_THAT(both.error_message(), HasSubstr("both at the origin \"vice\" and at a coordinate"));
   request.mutable_surface()->clear_z();
   EXPECT_TRUE(ask(&v1::MillService::Stub::OperateMill, request).ok());
   request.mutable_surface()->clear_origin();
-  request.mutable_surface()->set_z(0);
+  request.mutable_surface()->mutable_z()->set_pulses(0);
   EXPECT_TRUE(ask(&v1::MillService::Stub::OperateMill, request).ok());
 }
 

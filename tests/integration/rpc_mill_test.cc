@@ -78,33 +78,37 @@ TEST_F(RpcMill, NothingHoldsTheHostBackFromTheBuiltInSimulator) {
 }
 
 TEST_F(RpcMill, AJobIsCheckedForItsWorkpieceAndItsProfile) {
-  v1::SendJobRequest request;
-  request.set_device(kMill);
-  request.set_data("PA;VS15;!PZ-100,200;PU100,100;PD2000,100;PU0,0;!MC0;");
-  EXPECT_TRUE(send_whole(request).ok());
-  request.mutable_stock()->set_x_mm(10);
-  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("the workpiece has no size"));
-  request.mutable_stock()->set_y_mm(10);
-  for (const double length : {std::numeric_limits<double>::infinity(), std::nan(""), 10'001.0}) {
-    request.mutable_stock()->set_z_mm(length);
-    EXPECT_THAT(send_whole(request).error_message(), HasSubstr("the workpiece has no size")) << length;
+  v1::JobHeader header = header_of("");
+  const auto send_with = [&](v1::Job* job = nullptr) {
+    return upload(header, {"PA;VS15;!PZ-100,200;PU100,100;PD2000,100;PU0,0;!MC0;"}, job);
+  };
+  EXPECT_TRUE(send_with().ok());
+  header.mutable_stock()->mutable_x()->set_mm("10");
+  EXPECT_EQ(reason(send_with()), v1::REASON_INVALID_REQUEST) << "Y and Z are missing";
+  header.mutable_stock()->mutable_y()->set_um("10000");
+  for (const char* length : {"0", "-1", "10001"}) {
+    header.mutable_stock()->mutable_z()->set_mm(length);
+    EXPECT_THAT(send_with().error_message(), HasSubstr("the workpiece has no size")) << length;
   }
-  request.mutable_stock()->set_z_mm(5);
-  const grpc::Status beside = send_whole(request);
+  header.mutable_stock()->mutable_z()->set_pulses(500);
+  EXPECT_EQ(reason(send_with()), v1::REASON_UNKNOWN_UNIT);
+  header.mutable_stock()->mutable_z()->set_mm("5");
+  const grpc::Status beside = send_with();
   EXPECT_EQ(reason(beside), v1::REASON_INVALID_REQUEST) << "X reaches 50 mm";
   EXPECT_THAT(beside.error_message(), HasSubstr("warning"));
-  request.mutable_stock()->set_x_mm(60);
+  header.mutable_stock()->mutable_x()->mutable_floating()->set_value(60);
+  header.mutable_stock()->mutable_x()->mutable_floating()->set_unit(v1::UNIT_MILLIMETERS);
   v1::Job job;
-  const grpc::Status within = send_whole(request, &job);
+  const grpc::Status within = send_with(&job);
   EXPECT_TRUE(within.ok()) << within.error_message();
-  EXPECT_EQ(job.stock().x_mm(), 60);
-  request.set_made_for("mdx-40");
-  EXPECT_THAT(send_whole(request).error_message(),
-              HasSubstr("made-for-another-mill: line 1, column 1: made for the MDX-40"));
-  request.set_made_for("mdx-400");
-  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("there is no profile \"mdx-400\""));
-  request.set_made_for("mdx-20");
-  EXPECT_TRUE(send_whole(request).ok());
+  EXPECT_EQ(job.stock().x().mm(), "60");
+  EXPECT_EQ(job.stock().y().mm(), "10");
+  header.set_made_for("mdx-40");
+  EXPECT_THAT(send_with().error_message(), HasSubstr("made-for-another-mill: line 1, column 1: made for the MDX-40"));
+  header.set_made_for("mdx-400");
+  EXPECT_THAT(send_with().error_message(), HasSubstr("there is no profile \"mdx-400\""));
+  header.set_made_for("mdx-20");
+  EXPECT_TRUE(send_with().ok());
 }
 
 // A client that repeats an upload may cut it otherwise.
@@ -220,14 +224,14 @@ TEST_F(RpcMill, APausedJobWithTheToolUpIsConfirmedAndGoesOn) {
   ASSERT_TRUE(start(job).ok());
   v1::PauseJobRequest pause;
   pause.set_device(kMill);
-  pause.set_raise(true);
+  pause.set_raise_tool(true);
   v1::PauseJobResponse paused;
   ASSERT_TRUE(ask(&v1::MillService::Stub::PauseJob, pause, &paused).ok());
   EXPECT_EQ(paused.running().sending(), v1::SENDING_STATE_RAISING);
   const v1::Job rest = watch_until(job_is(job, v1::JOB_STATE_PAUSED)).jobs(0);
-  EXPECT_EQ(rest.setup().from().byte(), paused.running().written());
-  EXPECT_EQ(rest.setup().from().line(), 1);
-  EXPECT_EQ(rest.setup().from().column(), rest.setup().from().byte() + 1);
+  EXPECT_EQ(rest.setup().start().byte(), paused.running().written());
+  EXPECT_EQ(rest.setup().start().line(), 1);
+  EXPECT_EQ(rest.setup().start().column(), rest.setup().start().byte() + 1);
   EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::ResumeJob)), v1::REASON_WRONG_JOB_STATE);
   EXPECT_EQ(reason(confirm(job)), v1::REASON_SETUP_CHANGED) << "seen from its beginning";
   ASSERT_TRUE(confirm(rest).ok());
@@ -246,7 +250,7 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   ASSERT_TRUE(start(job).ok());
   v1::PauseJobRequest pause;
   pause.set_device(kMill);
-  pause.set_raise(true);
+  pause.set_raise_tool(true);
   ASSERT_TRUE(ask(&v1::MillService::Stub::PauseJob, pause).ok());
   watch_until(job_is(job, v1::JOB_STATE_PAUSED));
   request.set_line(0);
@@ -260,9 +264,9 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   v1::ContinueJobResponse response;
   ASSERT_TRUE(ask(&v1::MillService::Stub::ContinueJob, request, &response).ok());
   EXPECT_EQ(response.job().state(), v1::JOB_STATE_PAUSED);
-  EXPECT_EQ(response.job().setup().from().line(), 4) << "the next command";
-  EXPECT_EQ(response.job().setup().from().column(), 1);
-  EXPECT_EQ(response.job().setup().from().byte(), 29);
+  EXPECT_EQ(response.job().setup().start().line(), 4) << "the next command";
+  EXPECT_EQ(response.job().setup().start().column(), 1);
+  EXPECT_EQ(response.job().setup().start().byte(), 29);
   request.set_line(0);
   EXPECT_EQ(ask(&v1::MillService::Stub::ContinueJob, request).error_message(), unnamed.error_message())
       << "not the place that was chosen";

@@ -323,7 +323,7 @@ TEST_F(MillLeavesTest, NoZ0IsLeftWhereAPersonHasSetIt) {
   after.inherit_left(job_that_leaves(6, {.surface = true, .revolutions = true}));
   after.inherit(job_that_leaves(7, {}));
   after.link_up(now_);
-  ASSERT_TRUE(after.operate(jobs::SetZ0{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(after.operate(jobs::SetZ0{pulses(-800)}, {.who = "unix anna"}, now_));
   EXPECT_THAT(after.jobs().front().setup.left, ElementsAre("job 6 (part.rml) sets the spindle speed (!RC)"));
 }
 
@@ -331,7 +331,7 @@ TEST_F(MillLeavesTest, AJobThatContinuesAWorkpieceNeedsItsZ0) {
   jobs::Job next = job_that_leaves(2, {});
   next.continues = 1;
   mill_.add(next, now_);
-  ASSERT_TRUE(mill_.operate(jobs::SetZ0{-800}, {.who = "unix anna"}, now_));
+  ASSERT_TRUE(mill_.operate(jobs::SetZ0{pulses(-800)}, {.who = "unix anna"}, now_));
   const Result<void> confirmed = confirm(2);
   ASSERT_FALSE(confirmed);
   EXPECT_EQ(confirmed.error().reason, Reason::setup_changed);

@@ -188,7 +188,8 @@ TEST_F(InternalErrorAtAMill, WithoutAJobTheMillIsAbortedToo) {
   mill_.advance(now_);
   mill_.link_up(now_);
   EXPECT_EQ(written(), abort_commands(profile_, true));
-  EXPECT_EQ(reason(mill_.operate(jobs::JogStep{.x_mm = 1}, {.who = "unix anna"}, now_).map([](Duration) {})),
+  EXPECT_EQ(reason(mill_.operate(jobs::JogStep{.x = {{1, 0}, Unit::millimeters}}, {.who = "unix anna"}, now_)
+                       .map([](Duration) {})),
             Reason::axis_busy)
       << "the tool may still rise";
 }

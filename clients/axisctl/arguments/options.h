@@ -48,7 +48,7 @@ struct JobOptions {
   std::optional<std::uint64_t> number;     // number of the job; none: first job that waits
   bool start = false;                      // confirm: also start the job
   std::vector<std::string> distances;      // jog: "x=5", mm
-  std::optional<double> mm_per_s;          // jog
+  std::string speed;                       // jog; empty: the mill's
   std::optional<std::int64_t> z;           // origin: machine coordinate, in steps
   std::string spindle;                     // spindle: "on" or "off"
   bool raise = false;                      // pause: also raise the tool and stop the spindle

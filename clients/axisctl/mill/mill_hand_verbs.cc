@@ -2,35 +2,39 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <string>
 #include <string_view>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/mill/mill_calls.h"
+#include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
+#include "device/core/quantity.h"
 
 namespace axisgate::axisctl {
 namespace {
 
-// Adds a typed distance, such as "x=5" or "Z=-0.5mm", to the step.
+// Adds a typed distance, such as "x=5" or "Z=-0.5mm", to the step. A bare number is in mm.
 void add_distance(std::string_view text, v1::JogStep& step) {
-  std::string_view number = text.size() > 2 ? text.substr(2) : "";
-  if (number.ends_with("mm")) number.remove_suffix(2);
-  if (number.starts_with('+')) number.remove_prefix(1);
-  double mm = 0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), mm);
-  const bool whole = error == std::errc() && end == number.data() + number.size();
   const char axis = text.size() > 2 && text[1] == '=' ? static_cast<char>(std::toupper(text[0])) : '?';
-  if (!whole || axis < 'X' || axis > 'Z') {
+  const Result<Quantity> distance =
+      parse_quantity(text.substr(std::min<std::size_t>(2, text.size())), Unit::millimeters);
+  if (axis < 'X' || axis > 'Z' || !distance) {
     throw usage(fmt::format("\"{}\" is not an axis and a distance", text),
                 "name an axis and how many mm it moves, e.g. x=5 or z=-0.5");
   }
-  if (axis == 'X') step.set_x_mm(mm);
-  if (axis == 'Y') step.set_y_mm(mm);
-  if (axis == 'Z') step.set_z_mm(mm);
+  if (axis == 'X') *step.mutable_x() = to_distance(*distance);
+  if (axis == 'Y') *step.mutable_y() = to_distance(*distance);
+  if (axis == 'Z') *step.mutable_z() = to_distance(*distance);
+}
+
+v1::Speed typed_speed(std::string_view text) {
+  const Result<Quantity> speed = parse_speed(text, Unit::millimeters);
+  if (!speed) throw to_usage(speed.error());
+  return to_speed(*speed);
 }
 
 int operate(const Session& session, v1::OperateMillRequest request, std::string_view sent) {
@@ -53,7 +57,8 @@ int operate(const Session& session, v1::OperateMillRequest request, std::string_
 int mill_jog(const Session& session) {
   v1::OperateMillRequest request;
   for (const std::string& text : session.options.job.distances) add_distance(text, *request.mutable_step());
-  if (session.options.job.mm_per_s) request.mutable_step()->set_mm_per_s(*session.options.job.mm_per_s);
+  const std::string& speed = session.options.job.speed;
+  if (!speed.empty()) *request.mutable_step()->mutable_speed() = typed_speed(speed);
   return operate(session, request, "the step, unchecked because the tool's position is not known,");
 }
 
@@ -61,7 +66,7 @@ int mill_origin(const Session& session) {
   v1::OperateMillRequest request;
   v1::SetZ0& surface = *request.mutable_surface();
   surface.set_origin(session.options.job.origin);
-  if (session.options.job.z) surface.set_z(*session.options.job.z);
+  if (session.options.job.z) surface.mutable_z()->set_pulses(*session.options.job.z);
   return operate(session, request, "Z0");
 }
 
@@ -73,7 +78,7 @@ int mill_spindle(const Session& session) {
 
 int mill_raise(const Session& session) {
   v1::OperateMillRequest request;
-  request.mutable_raise();
+  request.mutable_raise_tool();
   return operate(session, request, "spindle off and tool up");
 }
 
@@ -81,7 +86,7 @@ void mill_jog_options(CLI::App& verb, Options& options) {
   verb.add_option("AXIS=MM", options.job.distances, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
       ->required()
       ->type_name("");
-  verb.add_option("--speed", options.job.mm_per_s, "in mm/s (default: the mill's)")->type_name("MM/S");
+  verb.add_option("--speed", options.job.speed, "in mm/s (default: the mill's)")->type_name("MM/S");
 }
 
 void mill_origin_options(CLI::App& verb, Options& options) {

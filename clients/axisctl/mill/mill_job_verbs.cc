@@ -62,7 +62,7 @@ int mill_watch(const Session& session) { return JobFollower(session, "").follow(
 
 int mill_pause(const Session& session) {
   auto request = mill_request<v1::PauseJobRequest>(session);
-  request.set_raise(session.options.job.raise);
+  request.set_raise_tool(session.options.job.raise);
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::PauseJob, request, kQuestionLimit);
   return report_answer(session, response, paused_text(response.running()));

@@ -52,9 +52,9 @@ std::string tool_of(const JobOptions& job, const v1::Mill& mill) {
 
 void set_stock(const std::string& text, v1::Stock& into) {
   const jobs::Stock stock = stock_of(text);
-  into.set_x_mm(stock.x);
-  into.set_y_mm(stock.y);
-  into.set_z_mm(stock.z);
+  into.mutable_x()->set_mm(fmt::format("{}", stock.x));
+  into.mutable_y()->set_mm(fmt::format("{}", stock.y));
+  into.mutable_z()->set_mm(fmt::format("{}", stock.z));
 }
 
 int mill_send(const Session& session) {
@@ -66,7 +66,7 @@ int mill_send(const Session& session) {
   const std::string device = mill_to_change(session);
   const v1::Mill mill = mill_now(session, device);
   std::vector<v1::SendJobRequest> messages(1);
-  v1::SendJobRequest header;
+  v1::JobHeader header;
   for (std::size_t i = 0; i < job.files.size(); ++i) {
     // Each piece becomes one message.
     const std::int64_t bytes = read_job_file(job.files[i], mill.job_bytes_at_most(), [&](std::string_view piece) {
@@ -86,7 +86,7 @@ int mill_send(const Session& session) {
   if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
   if (header.parts().empty()) header.set_tool(tool_of(job, mill));
   for (const std::string& name : job.accepted) header.add_accepted_warnings(name);
-  messages.front() = header;
+  *messages.front().mutable_header() = std::move(header);
   const v1::SendJobResponse response = session.connection.upload(
       session.connection.mills, &v1::MillService::Stub::PrepareAsyncSendJob, std::move(messages));
   session.options.json ? print_json(response) : print_line(state_text(response.job()));

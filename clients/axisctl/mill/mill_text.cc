@@ -134,7 +134,7 @@ bool is_paused(const v1::Job& job, const v1::RunningJob& running) {
 std::string state_cell(const v1::Job& job, const v1::RunningJob& running) {
   if (is_paused(job, running)) return name_of(v1::JOB_STATE_PAUSED);
   const std::string state = name_of(job.state());
-  return job.setup().has_from() && waits(job) ? fmt::format("{} ({})", state, line_text(job.setup().from())) : state;
+  return job.setup().has_start() && waits(job) ? fmt::format("{} ({})", state, line_text(job.setup().start())) : state;
 }
 
 // Returns "ends at line 8, column 1" or "ends between line 8, column 1 and line 13, column 1".
@@ -197,7 +197,7 @@ std::string running_line(const v1::Mill& mill) {
 
 // Returns ", from line 12 on, on the workpiece of job 3".
 std::string after_text(const v1::Job& job) {
-  const std::string from = job.setup().has_from() ? fmt::format(", from {} on", line_text(job.setup().from())) : "";
+  const std::string from = job.setup().has_start() ? fmt::format(", from {} on", line_text(job.setup().start())) : "";
   return job.continues().empty() ? from
                                  : fmt::format("{}, on the workpiece of job {}", from, last_part(job.continues()));
 }
@@ -237,7 +237,7 @@ std::string change_text(const v1::JobChange& change) {
 std::string rest_text(const v1::Job& job) {
   return fmt::format(
       "{} is PAUSED: it continues at {}; see that tool and Z0 are as before, then `axisctl mill confirm {} --start`",
-      job_text(job), place_text(job.setup().from()), last_part(job.name()));
+      job_text(job), place_text(job.setup().start()), last_part(job.name()));
 }
 
 std::string confirmed_text(const v1::Job& job) {
@@ -368,7 +368,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
   if (job.has_stock()) {
     const v1::Stock& stock = job.stock();
     lines.insert(lines.begin() + 1,
-                 fmt::format("  material  {:g} x {:g} x {:g} mm", stock.x_mm(), stock.y_mm(), stock.z_mm()));
+                 fmt::format("  material  {} x {} x {} mm", stock.x().mm(), stock.y().mm(), stock.z().mm()));
   }
   if (job.has_extent()) {
     lines.push_back("  size      " + size_text(job.extent()));
@@ -376,7 +376,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
   }
   for (const std::string& name : job.accepted_warnings()) lines.push_back("  accepted  " + on_one_line(name));
   if (job.has_run_on()) lines.push_back("  abort     " + run_on_text(job.run_on()));
-  if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
+  if (setup.has_start()) lines.push_back("  continues at " + place_text(setup.start()));
   if (!job.continues().empty())
     lines.push_back(fmt::format("  continues the workpiece of job {}", last_part(job.continues())));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
@@ -386,7 +386,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
 std::string setup_question(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
   const auto with = [](const std::string& name) { return name.empty() ? "" : " " + on_one_line(name); };
-  if (setup.has_from()) {
+  if (setup.has_start()) {
     return fmt::format("The tool{} is in, Z0 is as it was, and nothing is in the way? [yes/no]", with(setup.tool()));
   }
   if (job.part() > 1) {

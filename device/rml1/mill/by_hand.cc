@@ -4,58 +4,86 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "device/core/quantity.h"
+#include "device/jobs/point.h"
 #include "device/rml1/sending/commands.h"
 
 namespace axisgate::rml1 {
 namespace {
 
-Result<double> step_speed(const jobs::JogStep& step, const Profile& profile) {
+// Returns the scale of the mill's coordinates, whose pulses are its steps.
+Scale scale_of(const Profile& profile) {
+  return {.per_pulse = decimal_of(profile.step_mm * 1e6, true).value_or(Decimal{})};
+}
+
+// A WholeSteps is a step in whole steps of the mill's coordinates.
+struct WholeSteps {
+  std::int64_t x = 0, y = 0, z = 0;
+};
+
+Result<WholeSteps> whole_steps(const jobs::JogStep& step, const Scale& scale) {
+  const Result<std::int64_t> x = to_pulses(step.x, scale), y = to_pulses(step.y, scale), z = to_pulses(step.z, scale);
+  for (const auto& one : {x, y, z}) {
+    if (!one) return tl::unexpected(one.error());
+  }
+  return WholeSteps{*x, *y, *z};
+}
+
+Result<double> step_speed(const jobs::JogStep& step, const Profile& profile, const Scale& scale) {
   const double lowest = profile.speed.z_minimum, highest = profile.speed.z_maximum;
-  const double speed = step.mm_per_s.value_or(std::clamp(profile.speed.z_default, lowest, highest));
+  if (!step.speed) return std::clamp(profile.speed.z_default, lowest, highest);
+  const Result<std::int64_t> steps_per_s = to_pulses_per_second(*step.speed, scale);
+  if (!steps_per_s) return tl::unexpected(steps_per_s.error());
+  const double speed = static_cast<double>(*steps_per_s) * profile.step_mm;
   if (speed >= lowest && speed <= highest) return speed;
   return fail(Reason::too_fast, fmt::format("{:g} mm/s is no speed of the {}", speed, profile.name),
               fmt::format("use {:g} to {:g} mm/s", lowest, highest));
 }
 
-Result<void> check_length(const jobs::JogStep& step) {
-  for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
-    if (!(std::abs(mm) <= kFarthestStepMm)) {
+Result<void> check_length(const jobs::Point& step) {
+  for (const auto& [axis, mm] : {std::pair('X', step.x), std::pair('Y', step.y), std::pair('Z', step.z)}) {
+    if (std::abs(mm) > kFarthestStepMm) {
       return fail(Reason::out_of_range, fmt::format("a step of {:g} mm in {} is too long", mm, axis),
                   fmt::format("where the tool is, is not known: use steps of at most {:g} mm", kFarthestStepMm));
     }
   }
-  if (step.z_mm >= -kDeepestStepMm) return {};
-  return fail(Reason::out_of_range, fmt::format("a step of {:g} mm down is too long", -step.z_mm),
+  if (step.z >= -kDeepestStepMm) return {};
+  return fail(Reason::out_of_range, fmt::format("a step of {:g} mm down is too long", -step.z),
               fmt::format("where the tool is, is not known: use steps of at most {:g} mm down", kDeepestStepMm));
 }
 
 // !MC0 comes first, because !ZZ would start a permitted spindle (guideline 5-2).
 Result<HandCommands> step_words(const jobs::JogStep& step, const Profile& profile, double slack) {
-  if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
-  const Result<double> speed = step_speed(step, profile);
+  const Scale scale = scale_of(profile);
+  const Result<WholeSteps> whole = whole_steps(step, scale);
+  if (!whole) return tl::unexpected(whole.error());
+  const auto mm = [&profile](std::int64_t steps) { return static_cast<double>(steps) * profile.step_mm; };
+  const jobs::Point way{mm(whole->x), mm(whole->y), mm(whole->z)};
+  if (const Result<void> good = check_length(way); !good) return tl::unexpected(good.error());
+  const Result<double> speed = step_speed(step, profile, scale);
   if (!speed) return tl::unexpected(speed.error());
-  const auto steps = [&profile](double mm) { return std::llround(profile.steps(mm)); };
-  const auto x = steps(step.x_mm), y = steps(step.y_mm), z = steps(step.z_mm);
-  if (x == 0 && y == 0 && z == 0) {
+  if (whole->x == 0 && whole->y == 0 && whole->z == 0) {
     return fail(Reason::out_of_range, "the step is shorter than one of the mill's own",
                 fmt::format("the {} moves by {:g} mm", profile.name, profile.step_mm));
   }
-  const double way = std::hypot(step.x_mm, step.y_mm, step.z_mm);
-  return HandCommands{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
-                      longest_move(way, *speed, profile, slack)};
+  return HandCommands{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, whole->x, whole->y, whole->z),
+                      longest_move(std::hypot(way.x, way.y, way.z), *speed, profile, slack)};
 }
 
 // After PR, the parameter 0 of !ZO is the present height. After PA, the parameter is a machine coordinate (guideline
 // 3-3 !ZO).
 Result<HandCommands> surface_words(const jobs::SetZ0& surface, const Profile& profile) {
   if (!surface.at) return HandCommands{";^PR;!ZO0;^PA;"};
+  const Result<std::int64_t> at = to_pulses(*surface.at, scale_of(profile));
+  if (!at) return tl::unexpected(at.error());
   const double travel = std::round(profile.steps(profile.z_mm));
-  const double below_top = profile.up * (profile.top - static_cast<double>(*surface.at));
-  if (below_top >= 0 && below_top <= travel) return HandCommands{fmt::format(";^PA;!ZO{};", *surface.at)};
+  const double below_top = profile.up * (profile.top - static_cast<double>(*at));
+  if (below_top >= 0 && below_top <= travel) return HandCommands{fmt::format(";^PA;!ZO{};", *at)};
   const double bottom = profile.top - profile.up * travel;
-  return fail(Reason::out_of_range, fmt::format("{} is outside of Z's travel", *surface.at),
+  return fail(Reason::out_of_range, fmt::format("{} is outside of Z's travel", *at),
               fmt::format("use a machine coordinate from {:g} to {:g}", std::min(profile.top, bottom),
                           std::max(profile.top, bottom)));
 }

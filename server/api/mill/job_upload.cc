@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/api/mill/job_acts.h"
 #include "server/api/mill/workpiece.h"
 #include "server/devices/spooled_jobs.h"
 #include "server/journal/answers.h"
@@ -34,7 +35,7 @@ Result<CurrentJob> sent_before(Mill& mill, const std::vector<jobs::Job>& jobs, c
     if (same(job) && (newest == nullptr || newest->number < job.number)) newest = &job;
   }
   if (newest != nullptr) return CurrentJob{&mill, *newest, server::moment_of(now)};
-  return fail(Reason::not_found, "the job was sent before, and has ended", "`axisctl history` has it");
+  return fail(Reason::not_found, "the job was sent before, and has ended", "`ListHistory` has it");
 }
 
 }  // namespace
@@ -139,7 +140,9 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   pipeline_.act(
       {kind_, call_, Result<Mill*>(&mill_)},
       [this, text = fmt::format("{} {}", api::name(kind_), job.number), answer](const MillTurn& turn) {
-        return check_z0(turn.controller.z0_count()).map([&text] { return text; });
+        return check_in_time(turn).and_then([&] { return check_z0(turn.controller.z0_count()); }).map([&text] {
+          return text;
+        });
       },
       [job, answer](const MillTurn& turn, const MutationPtr& mutation) {
         turn.controller.add(job, turn.now);

@@ -20,16 +20,16 @@ Result<jobs::HandAct> act_of(const HandRequest& request, const Mill& mill) {
   const auto* surface = std::get_if<jobs::SetZ0>(&request.act);
   if (surface != nullptr && surface->at) {
     return fail(Reason::invalid_request,
-                fmt::format("Z0 cannot be both at the origin \"{}\" and at z = {}", request.origin, *surface->at),
+                fmt::format("Z0 cannot be both at the origin \"{}\" and at a coordinate", request.origin),
                 "name the origin or z, not both");
   }
   const auto& origins = mill.config().origins;
   const auto named = std::ranges::find(origins, request.origin, &jobs::NamedOrigin::name);
   if (named == origins.end()) {
     return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), request.origin),
-                "`axisctl mill queue` lists them");
+                "`GetMill` lists them");
   }
-  if (named->z) return jobs::SetZ0{named->z};
+  if (named->z) return jobs::SetZ0{pulses(*named->z)};
   return fail(Reason::invalid_request, fmt::format("the origin {} of {} has no height", named->name, mill.name()),
               "give it one in the configuration: `z`; X and Y are set at the mill's panel");
 }

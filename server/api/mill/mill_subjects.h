@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "server/api/mill/job_acts.h"
+#include "server/api/mill/job_pieces.h"
 #include "server/api/mill/job_sending.h"
 #include "server/api/mill/job_starts.h"
 #include "server/api/mill/mill_operation.h"
@@ -23,7 +24,8 @@ class MillSubjects {
         operation(gateway, pipeline),
         waiting(gateway, pipeline, acts_),
         starts(gateway, pipeline, acts_, worker_),
-        sending(gateway, pipeline, worker_) {}
+        sending(gateway, pipeline, worker_),
+        pieces(gateway, pipeline, sending) {}
   ~MillSubjects() { worker_->join(); }
 
  private:
@@ -38,6 +40,7 @@ class MillSubjects {
   const WaitingJobs waiting;
   const JobStarts starts;
   const JobSending sending;
+  const JobPieces pieces;
 };
 
 }  // namespace axisgate::api

@@ -31,18 +31,28 @@ void JobUploadRun::OnReadDone(bool ok) {
 }
 
 Result<void> JobUploadRun::take() {
-  if (upload_ == nullptr) {
-    Result<api::JobToSend> job = proto::to_job(*incoming_);
-    if (!job) return tl::unexpected(job.error());
-    auto upload = sending_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
-    if (!upload) return tl::unexpected(upload.error());
-    upload_ = *std::move(upload);
-    v1::SendJobRequest header = *incoming_;
-    header.clear_data();
-    header_digest_ = proto::digest_of(header);
+  const v1::SendJobRequest& message = *incoming_;
+  if (upload_ == nullptr) return begin(message);
+  if (!message.has_data()) {
+    return fail(Reason::invalid_request, "a message after the first has no data",
+                "the header belongs in the first message, and the bytes in the others");
   }
-  data_digest_.add(incoming_->data());
-  return upload_->append(incoming_->data());
+  data_digest_.add(message.data());
+  return upload_->append(message.data());
+}
+
+Result<void> JobUploadRun::begin(const v1::SendJobRequest& message) {
+  if (!message.has_header()) {
+    return fail(Reason::invalid_request, "the first message has no header", "send the header, then the bytes");
+  }
+  const v1::JobHeader& header = message.header();
+  Result<api::JobToSend> job = proto::to_job(header);
+  if (!job) return tl::unexpected(job.error());
+  auto upload = sending_.send(to_call(context_, header.context()), header.device(), *std::move(job));
+  if (!upload) return tl::unexpected(upload.error());
+  upload_ = *std::move(upload);
+  header_digest_ = proto::digest_of(header);
+  return {};
 }
 
 void JobUploadRun::finish() {
@@ -53,9 +63,7 @@ void JobUploadRun::finish() {
   if (upload_ == nullptr) {
     return end(to_status(Problem{.reason = Reason::invalid_request, .message = "the job has no message"}));
   }
-  v1::SendJobRequest data;
-  data.set_data(data_digest_.hexadecimal());
-  upload_->finish(proto::digest_of(header_digest_, data),
+  upload_->finish(proto::job_digest(header_digest_, data_digest_.hexadecimal()),
                   [run = shared_from_this()](const Result<api::CurrentJob>& job) { run->answer(job); });
 }
 

@@ -34,6 +34,7 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
       : sending_(sending), context_(context), half_close_(half_close), response_(response) {}
 
   Result<void> take();
+  Result<void> begin(const v1::SendJobRequest& message);
   void finish();
   void end(const grpc::Status& status);
   void answer(const Result<api::CurrentJob>& job);
@@ -44,7 +45,7 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
   v1::SendJobResponse* const response_;
   Incoming<v1::SendJobRequest> incoming_;
   std::unique_ptr<api::JobUpload> upload_;  // null before the first message
-  std::string header_digest_;               // of the first message without its data
+  std::string header_digest_;               // of the first message
   server::spool::Sha256 data_digest_;       // of all data, independent of the division into messages
   std::mutex mutex_;
   bool ended_ = false;  // protected by mutex_

@@ -1,8 +1,13 @@
 // MillService: jobs of mills. The front answers AbortJob (own_answers.h).
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
 #include "axisgate/v1/mill.grpc.pb.h"
 #include "server/api/mill/mill_subjects.h"
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
+#include "server/proto/digest.h"
 #include "server/proto/mills.h"
 #include "server/rpc/calls/call.h"
 #include "server/rpc/calls/half_close.h"
@@ -36,6 +41,25 @@ class MillService final : public v1::MillService::CallbackService {
   grpc::ServerReadReactor<v1::SendJobRequest>* SendJob(grpc::CallbackServerContext* context,
                                                        v1::SendJobResponse* response) override {
     return JobUploadRun::start(mill_.sending, *context, half_close_, response);
+  }
+
+  grpc::ServerUnaryReactor* SendJobPiece(grpc::CallbackServerContext* context, const v1::SendJobPieceRequest* request,
+                                         v1::SendJobPieceResponse* response) override {
+    const auto call = UnaryCall<v1::SendJobPieceResponse>::start(response);
+    const v1::JobHeader& header = request->header();
+    const std::string digest = proto::digest_of(header);
+    mill_.pieces.take(
+        to_call(*context, header.context()), header.device(), proto::to_job(header),
+        {.header_digest = digest,
+         .offset = static_cast<std::uint64_t>(std::max<std::int64_t>(request->offset(), 0)),
+         .data = request->data(),
+         .last = request->last(),
+         .digest_of_all = [digest](const std::string& bytes) { return proto::job_digest(digest, bytes); }},
+        answering<api::PieceTaken>(call, [](v1::SendJobPieceResponse& answer, const api::PieceTaken& taken) {
+          answer.set_received(static_cast<std::int64_t>(taken.received));
+          if (taken.job) *answer.mutable_job() = proto::to_proto(*taken.job);
+        }));
+    return call.get();
   }
 
   grpc::ServerUnaryReactor* GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
@@ -78,7 +102,7 @@ class MillService final : public v1::MillService::CallbackService {
   grpc::ServerUnaryReactor* PauseJob(grpc::CallbackServerContext* context, const v1::PauseJobRequest* request,
                                      v1::PauseJobResponse* response) override {
     const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
-    mill_.mills.pause(to_acting_call(*context, *request), request->device(), request->raise(),
+    mill_.mills.pause(to_acting_call(*context, *request), request->device(), request->raise_tool(),
                       answering_with_run(call));
     return call.get();
   }

@@ -100,14 +100,17 @@ func upload(c *client, title, job string, pieces int, options ...grpc.CallOption
 	if err != nil {
 		return nil, err
 	}
-	message := &api.SendJobRequest{Device: mill, Title: title, Tool: "T1"}
+	header := &api.JobHeader{Device: mill, Title: title, Tool: "T1"}
+	messages := []*api.SendJobRequest{{Part: &api.SendJobRequest_Header{Header: header}}}
 	for i := range pieces {
-		message.Data = []byte(job[len(job)*i/pieces : len(job)*(i+1)/pieces])
+		data := []byte(job[len(job)*i/pieces : len(job)*(i+1)/pieces])
+		messages = append(messages, &api.SendJobRequest{Part: &api.SendJobRequest_Data{Data: data}})
+	}
+	for _, message := range messages {
 		// Send fails if the call has ended. CloseAndRecv then returns the status.
 		if stream.Send(message) != nil {
 			break
 		}
-		message = &api.SendJobRequest{}
 	}
 	return stream.CloseAndRecv()
 }

@@ -110,13 +110,12 @@ rows.execute = async (api) => {
   expect('messages of a refused Execute', refused.length, 0);
 };
 
-// Cuts `text` into `count` requests of almost equal length; the first one describes the job.
+// Returns the header, and `text` cut into `count` pieces of almost equal length.
 function jobRequests(text, count, title) {
   const bytes = Buffer.from(text);
   const cut = (n) => Math.floor((bytes.length * n) / count);
   const requests = Array.from({ length: count }, (_, n) => ({ data: bytes.subarray(cut(n), cut(n + 1)) }));
-  Object.assign(requests[0], { device: MILL, title, tool: 'T1' });
-  return requests;
+  return [{ header: { device: MILL, title, tool: 'T1' } }, ...requests];
 }
 
 async function sendJob(api) {

@@ -145,12 +145,12 @@ def execute_row(calls):
 
 
 def job_requests(text, count, title):
-    """Cuts `text` into `count` requests of almost equal length; the first one describes the job."""
+    """Returns the header, and `text` cut into `count` pieces of almost equal length."""
     data = text.encode()
     cuts = [len(data) * n // count for n in range(count + 1)]
     requests = [mill_pb2.SendJobRequest(data=data[cuts[n]:cuts[n + 1]]) for n in range(count)]
-    requests[0].MergeFrom(mill_pb2.SendJobRequest(device=MILL, title=title, tool="T1"))
-    return requests
+    header = mill_pb2.JobHeader(device=MILL, title=title, tool="T1")
+    return [mill_pb2.SendJobRequest(header=header), *requests]
 
 
 @row("send-job")

@@ -297,11 +297,11 @@ final class Rows {
       MillServiceGrpc.MillServiceStub mills, String title, String job, int pieces) {
     var answers = new Answers<SendJobRequest, SendJobResponse>();
     mills.sendJob(answers);
-    var request = SendJobRequest.newBuilder().setDevice(MILL).setTitle(title).setTool("T1");
+    var header = JobHeader.newBuilder().setDevice(MILL).setTitle(title).setTool("T1");
+    answers.call.onNext(SendJobRequest.newBuilder().setHeader(header).build());
     for (int i = 0; i < pieces; i++) {
       String piece = job.substring(job.length() * i / pieces, job.length() * (i + 1) / pieces);
-      answers.call.onNext(request.setData(ByteString.copyFromUtf8(piece)).build());
-      request.clear();
+      answers.call.onNext(SendJobRequest.newBuilder().setData(ByteString.copyFromUtf8(piece)).build());
     }
     answers.call.onCompleted();
     return answers;

@@ -14,6 +14,7 @@ use crate::gateway::api::axis_jog::Direction;
 use crate::gateway::api::event::Fact;
 use crate::gateway::api::execute_response::Change;
 use crate::gateway::api::mill_service_client::MillServiceClient;
+use crate::gateway::api::send_job_request::Part;
 use crate::gateway::api::speed::Amount;
 use crate::gateway::api::*;
 use crate::gateway::{
@@ -121,15 +122,20 @@ async fn expect_end<T: std::fmt::Debug>(call: &str, answers: &mut Streaming<T>) 
     expect(call, &more, "the end of the call", more.is_none())
 }
 
-/// Cuts a job into messages of almost equal length.
+/// Returns the header, and the job cut into pieces of almost equal length.
 fn job_messages(job: &str, title: &str, count: usize) -> Vec<SendJobRequest> {
     let place = |index: usize| job.len() * index / count;
     let pieces = (0..count).map(|index| job.as_bytes()[place(index)..place(index + 1)].to_vec());
-    let mut messages: Vec<_> = pieces.map(|data| SendJobRequest { data, ..Default::default() }).collect();
-    messages[0].device = MILL.to_string();
-    messages[0].title = title.to_string();
-    messages[0].tool = "T1".to_string();
-    messages
+    let header = JobHeader {
+        device: MILL.to_string(),
+        title: title.to_string(),
+        tool: "T1".to_string(),
+        ..Default::default()
+    };
+    std::iter::once(Part::Header(header))
+        .chain(pieces.map(Part::Data))
+        .map(|part| SendJobRequest { part: Some(part) })
+        .collect()
 }
 
 async fn send_job(gateway: &Gateway) -> Check {
