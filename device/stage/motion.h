@@ -33,6 +33,7 @@ struct AxisResult {
 // Result of a scan, in drive pulses of the axis.
 struct ScanResult {
   std::int64_t run_from = 0, run_to = 0;  // start and end of the run
+  std::optional<std::int64_t> interval;   // between two trigger pulses, in drive pulses, signed; nullopt: scale pulses
   // Trigger pulses due in the whole run and in its range; nullopt for scale pulses if the scale's resolution is
   // unknown.
   std::optional<std::int64_t> expected, expected_in_range;

@@ -139,6 +139,20 @@ std::optional<Noted> said(const Other&) {
 
 }  // namespace
 
+std::vector<stage::AxisResult> results_in(std::string_view details) {
+  const Json body = Json::parse(details, nullptr, false);
+  std::vector<stage::AxisResult> results;
+  if (!body.is_object() || !body.contains("results")) return results;
+  for (const Json& one : body.at("results")) {
+    stage::AxisResult result;
+    result.axis = one.at("axis");
+    if (one.contains("target_pulses")) result.target_pulses = one.at("target_pulses").get<std::int64_t>();
+    if (one.contains("command_pulses")) result.command_pulses = one.at("command_pulses").get<std::int64_t>();
+    results.push_back(result);
+  }
+  return results;
+}
+
 // Returns nullopt at the end of a motion of which no line was written: its request is refused when its start is
 // answered.
 std::optional<RequestChange> DeviceEntries::change_of(const stage::Event& event) {

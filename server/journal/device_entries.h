@@ -3,13 +3,19 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "device/stage/event.h"
+#include "device/stage/motion.h"
 #include "server/journal/exchanged_lines.h"
 #include "server/journal/journal.h"
 #include "server/journal/request_memory.h"
 
 namespace axisgate::server::journal {
+
+// Returns the results in the details of an entry; none if it has none.
+std::vector<stage::AxisResult> results_in(std::string_view details);
 
 // Runs on the device's strand and never waits.
 class DeviceEntries {

@@ -31,6 +31,7 @@ stage::AxisResult result_of(const Json& json) {
 
 Json scan_json(const stage::ScanResult& scan) {
   Json json{{"from", scan.run_from}, {"to", scan.run_to}};
+  add(json, "interval", scan.interval);
   add(json, "expected", scan.expected);
   add(json, "expected_in_range", scan.expected_in_range);
   add(json, "observed", scan.observed);
@@ -38,8 +39,12 @@ Json scan_json(const stage::ScanResult& scan) {
 }
 
 stage::ScanResult scan_of(const Json& json) {
-  return {json.at("from"), json.at("to"), find<std::int64_t>(json, "expected"),
-          find<std::int64_t>(json, "expected_in_range"), find<std::int64_t>(json, "observed")};
+  return {json.at("from"),
+          json.at("to"),
+          find<std::int64_t>(json, "interval"),
+          find<std::int64_t>(json, "expected"),
+          find<std::int64_t>(json, "expected_in_range"),
+          find<std::int64_t>(json, "observed")};
 }
 
 }  // namespace

@@ -12,8 +12,11 @@
 
 #include "server/api/request/axis_names.h"
 #include "server/api/request/names.h"
+#include "server/journal/device_entries.h"
 #include "server/proto/amounts.h"
 #include "server/proto/callers.h"
+#include "server/proto/motions.h"
+#include "server/proto/shown.h"
 #include "server/proto/to_proto.h"
 
 namespace axisgate::proto {
@@ -152,7 +155,7 @@ Result<std::string> to_outcome(v1::MotionState outcome) {
 
 }  // namespace
 
-v1::HistoryEntry to_proto(const StoredEntry& stored) {
+v1::HistoryEntry to_proto(const server::Gateway& gateway, const StoredEntry& stored) {
   const auto& entry = stored.entry;
   v1::HistoryEntry proto;
   proto.set_number(stored.number);
@@ -162,6 +165,10 @@ v1::HistoryEntry to_proto(const StoredEntry& stored) {
   if (!entry.who.empty()) *proto.mutable_caller() = to_caller(entry.who);
   if (entry.motion != 0) proto.set_motion(api::motion_name(entry.device, entry.motion));
   proto.set_details(entry.body);
+  const Shown shown(gateway.find_stage(entry.device));
+  for (const stage::AxisResult& result : server::journal::results_in(entry.body)) {
+    *proto.add_results() = to_proto(result, shown);
+  }
   return proto;
 }
 

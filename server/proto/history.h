@@ -11,7 +11,7 @@
 
 namespace axisgate::proto {
 
-v1::HistoryEntry to_proto(const server::journal::StoredEntry& stored);
+v1::HistoryEntry to_proto(const server::Gateway& gateway, const server::journal::StoredEntry& stored);
 v1::JournalHead to_proto(const server::journal::Head& head);
 void fill_summary(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer);
 

@@ -39,6 +39,7 @@ v1::Scan to_scan(const stage::ScanResult& scan, int axis, const Shown& shown) {
   proto.set_run_to_pulses(scan.run_to);
   proto.set_run_from(shown.text(axis, scan.run_from));
   proto.set_run_to(shown.text(axis, scan.run_to));
+  if (scan.interval) proto.set_interval_pulses(*scan.interval);
   if (scan.expected) proto.set_expected_triggers(*scan.expected);
   if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
   if (scan.observed) proto.set_observed_triggers(*scan.observed);
@@ -53,6 +54,18 @@ void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Mom
 
 }  // namespace
 
+v1::AxisResult to_proto(const stage::AxisResult& result, const Shown& shown) {
+  v1::AxisResult proto;
+  proto.set_axis(result.axis);
+  if (result.target_pulses) proto.set_target_pulses(*result.target_pulses);
+  if (result.command_pulses) proto.set_command_pulses(*result.command_pulses);
+  proto.set_completion_seen(result.completion_seen);
+  shown.describe(result.axis, proto);
+  proto.set_target(shown.text(result.axis, result.target_pulses));
+  proto.set_position(shown.text(result.axis, result.command_pulses));
+  return proto;
+}
+
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
                     const server::Moment& clock, const Shown& shown) {
   v1::Motion proto;
@@ -60,16 +73,7 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
   proto.set_kind(to_motion_kind(motion.kind));
   proto.set_state(to_motion_state(motion.state));
   for (const int axis : motion.axes.list()) proto.add_axes(axis);
-  for (const stage::AxisResult& result : motion.results) {
-    v1::AxisResult& one = *proto.add_results();
-    one.set_axis(result.axis);
-    if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
-    if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
-    one.set_completion_seen(result.completion_seen);
-    shown.describe(result.axis, one);
-    one.set_target(shown.text(result.axis, result.target_pulses));
-    one.set_position(shown.text(result.axis, result.command_pulses));
-  }
+  for (const stage::AxisResult& result : motion.results) *proto.add_results() = to_proto(result, shown);
   if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
   proto.set_revision(revision);
   set_times(proto, motion, clock);
@@ -96,6 +100,10 @@ void fill_page(const v1::ListMotionsRequest& request, std::vector<api::CurrentMo
     std::erase_if(motions, [&](const api::CurrentMotion& motion) {
       return std::ranges::find(request.states(), to_motion_state(motion.motion.state)) == request.states().end();
     });
+  }
+  if (!request.request_id().empty()) {
+    std::erase_if(motions,
+                  [&](const api::CurrentMotion& motion) { return motion.motion.request_id != request.request_id(); });
   }
   // Newest first: the key descends as the id ascends.
   const auto key = [](const api::CurrentMotion& motion) {

@@ -15,6 +15,9 @@
 
 namespace axisgate::proto {
 
+// `shown` is that of the stage whose axis it is.
+v1::AxisResult to_proto(const stage::AxisResult& result, const Shown& shown);
+
 // `revision` is that of the newest fact about the motion, 0 if unknown. `clock` converts the motion's times to wall
 // time. `shown` is that of the motion's stage.
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,

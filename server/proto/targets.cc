@@ -34,7 +34,7 @@ Result<std::vector<stage::AxisMove>> to_axis_moves(const v1::Segment& segment, c
       return moves;
     case v1::Segment::kLine:
       if (segment.line().distances_size() < 2) {
-        return fail(Reason::invalid_request, "a line moves two or three axes", "use `single` for one axis");
+        return fail(Reason::invalid_request, "a line moves at least two axes", "use `single` for one axis");
       }
       for (const v1::AxisDistance& part : segment.line().distances()) {
         if (const Result<void> added = add(part); !added) return tl::unexpected(added.error());
@@ -145,7 +145,7 @@ Result<api::Scan> to_scan(const v1::ScanRequest& request, const AxisNames& names
   api::Scan wanted;
   stage::ScanRequest& scan = wanted.request;
   scan.axis = *axis;
-  for (const auto& [end, place] : {std::pair(&request.from(), &scan.from), {&request.to(), &scan.to}}) {
+  for (const auto& [end, place] : {std::pair(&request.start(), &scan.from), {&request.end(), &scan.to}}) {
     const Result<Quantity> quantity = to_quantity(*end);
     if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
     *place = *quantity;

@@ -88,12 +88,13 @@ TEST_F(AdmissionTest, CallersWhomNothingNamesTakeTurnsAsOne) {
 TEST_F(AdmissionTest, AGuessedLeaseTokenIsRefused) {
   call_.lease_token = world_.sealed(5);
   call_.lease_token.back() ^= 1;
-  for (const RequestKind kind : {RequestKind::move, RequestKind::release_lease, RequestKind::rearm}) {
+  for (const RequestKind kind : {RequestKind::release_lease, RequestKind::rearm}) {
     ASSERT_FALSE(context(kind));
     EXPECT_EQ(context(kind).error().reason, Reason::lease_lost);
   }
   EXPECT_TRUE(context(RequestKind::acquire_lease));
   EXPECT_EQ(context(RequestKind::execute)->lease, server::LeaseTokens::kUnknown) << "its line may be a stop";
+  EXPECT_EQ(context(RequestKind::move)->lease, server::LeaseTokens::kUnknown) << "it may be a repeat";
   EXPECT_EQ(world_.api->admission.context_of_stop(call_).lease, 0u);
 }
 

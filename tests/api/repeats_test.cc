@@ -141,6 +141,19 @@ TEST(RepeatsTest, AJogNeverStartsTwice) {
   EXPECT_EQ(motions_of(world), 1u);
 }
 
+// The lease of the first request may have ended since, for instance with the daemon.
+TEST(RepeatsTest, ARepeatUnderALeaseThatHasEndedReceivesTheFirstResult) {
+  World world;
+  Call call = call_with("leased-1");
+  call.lease_token = world.sealed(world.lease_of(kAnna));
+  EXPECT_EQ(world.reason_of_move(call), Reason::unspecified);
+  call.lease_token.back() ^= 1;
+  EXPECT_EQ(world.reason_of_move(call), Reason::unspecified);
+  EXPECT_EQ(motions_of(world), 1u);
+  call.request_id = "leased-2";
+  EXPECT_EQ(world.reason_of_move(call), Reason::lease_lost);
+}
+
 // A repeated rearm does not end the latch of a stop that came after the first rearm.
 TEST(RepeatsTest, ARearmIsDoneOnce) {
   World world;

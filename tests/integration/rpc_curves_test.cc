@@ -225,15 +225,16 @@ TEST(Scans, AreToldWithWhatIsKnown) {
   motion.kind = stage::MotionKind::scan;
   motion.axes = stage::AxisSet::of(1);
   EXPECT_FALSE(proto::to_proto("stage", motion, 1, server::Moment(), proto::Shown(nullptr)).has_scan());
-  motion.scan = stage::ScanResult{-200, 1300, 16, 11, {}};
+  motion.scan = stage::ScanResult{-200, 1300, 100, 16, 11, {}};
   const v1::Motion running = proto::to_proto("stage", motion, 1, server::Moment(), proto::Shown(nullptr));
   EXPECT_EQ(running.kind(), v1::MOTION_KIND_SCAN);
   EXPECT_EQ(running.scan().run_from_pulses(), -200);
   EXPECT_EQ(running.scan().run_to_pulses(), 1300);
+  EXPECT_EQ(running.scan().interval_pulses(), 100);
   EXPECT_EQ(running.scan().expected_triggers(), 16);
   EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
   EXPECT_FALSE(running.scan().has_observed_triggers());
-  motion.scan = stage::ScanResult{0, 0, {}, {}, 0};
+  motion.scan = stage::ScanResult{0, 0, {}, {}, {}, 0};
   const v1::Motion ended = proto::to_proto("stage", motion, 1, server::Moment(), proto::Shown(nullptr));
   EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
   EXPECT_TRUE(ended.scan().has_observed_triggers());

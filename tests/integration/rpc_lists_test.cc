@@ -72,6 +72,16 @@ TEST_F(RpcLists, APageHasASizeThatThereIs) {
   }
 }
 
+TEST_F(RpcLists, ATextThatIsNoTokenIsRefused) {
+  v1::ListMotionsRequest request;
+  request.set_device("devices/stage");
+  request.set_page_token("2");
+  grpc::ClientContext context;
+  limit(context);
+  v1::ListMotionsResponse response;
+  EXPECT_EQ(reason(stage_->ListMotions(&context, request, &response)), v1::REASON_INVALID_REQUEST);
+}
+
 TEST_F(RpcLists, TokensAndPositionsComeInPages) {
   const auto access = v1::AccessService::NewStub(channel_);
   for (const char* name : {"b", "a", "c"}) {

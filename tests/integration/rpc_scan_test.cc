@@ -17,8 +17,8 @@ class RpcScan : public RpcTest {
     v1::ScanRequest request;
     request.set_device("devices/stage");
     request.set_axis("1");
-    request.mutable_from()->set_pulses(from);
-    request.mutable_to()->set_pulses(to);
+    request.mutable_start()->set_pulses(from);
+    request.mutable_end()->set_pulses(to);
     request.mutable_distance()->set_pulses(1000);
     return request;
   }

@@ -17,8 +17,8 @@ int scan(const Session& session) {
   *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   request.set_axis(std::to_string(axis.number()));
-  *request.mutable_from() = parse_amount_for(axis, options.from);
-  *request.mutable_to() = parse_amount_for(axis, options.to);
+  *request.mutable_start() = parse_amount_for(axis, options.from);
+  *request.mutable_end() = parse_amount_for(axis, options.to);
   if (!options.speed.empty()) *request.mutable_speed() = parse_speed_for(axis, options.speed);
   if (options.acceleration_ms != 0) *request.mutable_acceleration_time() = from_milliseconds(options.acceleration_ms);
   if (options.by_scale) {

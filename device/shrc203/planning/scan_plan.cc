@@ -139,6 +139,7 @@ Result<ScanPlan> plan_scan(const ScanRequest& request, const Positions& from, st
     plan.due.expected = triggers_by_scale(run, ratio, *trigger);
     plan.due.expected_in_range = triggers_by_scale(within, ratio, *trigger);
   } else {
+    plan.due.interval = range->direction() * request.interval;
     plan.due.expected = triggers_on(run, *trigger);
     plan.due.expected_in_range = triggers_on(within, *trigger) + 1;
   }

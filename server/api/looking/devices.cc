@@ -60,7 +60,12 @@ class DeviceWatch final : public Subscription<DeviceState> {
 Result<DeviceList> Devices::list(const Call& call) const {
   const auto caller = admission_.check_role(RequestKind::list_devices, call.credential);
   if (!caller) return tl::unexpected(caller.error());
-  DeviceList all{{}, gateway_.requests().mark(), gateway_.journal() != nullptr && !gateway_.journal()->failure()};
+  DeviceList all{.devices = {},
+                 .request_memory = gateway_.requests().mark(),
+                 .requests_kept = gateway_.journal() != nullptr && !gateway_.journal()->failure(),
+                 .version = AXISGATE_VERSION,
+                 .next_revision = gateway_.events().newest_revision() + 1,
+                 .run = gateway_.run()};
   for (const auto& device : gateway_.devices()) {
     if (auto* mill = dynamic_cast<server::Mill*>(device.get())) {
       all.devices.emplace_back(MillState{mill, mill->newest().get().value});

@@ -31,6 +31,9 @@ struct DeviceList {
   std::vector<std::variant<DeviceState, MillState>> devices;  // in the order of the configuration
   std::string request_memory{};                               // RequestMemory::mark()
   bool requests_kept = false;                                 // requests are remembered over a restart, too
+  std::string version{};                                      // of the daemon
+  std::uint64_t next_revision = 0;                            // of the first event after this answer
+  std::string run{};                                          // of the daemon
 };
 
 // A StageNow is not a copy: it is valid only during the call that passes it.

@@ -59,7 +59,7 @@ Result<Caller> Admission::identify(const Credential& credential) const {
 Result<void> Admission::check_least_role(RequestKind kind, const Caller& caller, std::string_view as_called) const {
   if (caller.role == Role::nobody) {
     return fail(Reason::unauthenticated, fmt::format("{} needs a token here", caller.who),
-                "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
+                "set AXISGATE_TOKEN to one; an administrator makes one with `CreateToken`");
   }
   const Rule& rule = rule_of(kind);
   const Role least = access_.only_for_admins(rule.admin_key) ? Role::admin : rule.least_role;
@@ -109,8 +109,9 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
                          .session = call.credential.session};
   if (rule.use != Use::nothing) {
     const auto lease = lease_tokens_.open(call.lease_token);
-    // Execute may carry a stop, which is never refused. Its other lines are refused when the right is checked.
-    if (!lease && kind != RequestKind::execute) return tl::unexpected(lease.error());
+    // A request that uses axes is refused later, when the right is checked: a repeat must receive the result of the
+    // first request, also if its lease has ended since, and Execute may carry a stop, which is never refused.
+    if (!lease && rule.use == Use::lease) return tl::unexpected(lease.error());
     context.lease = lease.value_or(server::LeaseTokens::kUnknown);
   }
   if (rule.deadline == DeadlineRule::question) return context;

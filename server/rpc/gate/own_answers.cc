@@ -53,6 +53,10 @@ v1::ListDevicesResponse list_of(const api::DeviceList& list) {
   }
   response.set_request_memory(list.request_memory);
   response.set_requests_kept(list.requests_kept);
+  response.set_version(list.version);
+  *response.mutable_time() = proto::to_proto(server::WallTime(std::chrono::system_clock::now()));
+  response.set_next_revision(list.next_revision);
+  response.set_run(list.run);
   return response;
 }
 

@@ -39,7 +39,7 @@ class AccessService final : public v1::AccessService::CallbackService {
 
   grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest* request,
                                        v1::ListTokensResponse* response) override {
-    if (const auto good = proto::check_page_size(request->page_size()); !good) {
+    if (const auto good = proto::check_page(request->page_size(), request->page_token()); !good) {
       return UnaryCall<v1::ListTokensResponse>::start(response)->refuse(good.error());
     }
     return answer_at_once(response, tokens_.list(to_call(*context)),

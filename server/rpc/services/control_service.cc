@@ -16,6 +16,14 @@
 namespace axisgate::rpc {
 namespace {
 
+// Builds the Call of a request whose subject is the lease of its context, so requests for two leases differ.
+template <class Request>
+api::Call to_lease_call(const grpc::CallbackServerContext& context, const Request& request) {
+  api::Call made = to_call(context, request.context());
+  if (!made.request_id.empty()) made.digest = proto::digest_of(request.context().lease_token(), request);
+  return made;
+}
+
 // A WaitingCall is an open AcquireLease or TakeOverLease.
 template <class Response>
 class WaitingCall final : public api::LeaseSeeker {
@@ -73,14 +81,14 @@ class ControlService final : public v1::ControlService::CallbackService {
   grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context, const v1::ReleaseLeaseRequest* request,
                                          v1::ReleaseLeaseResponse* response) override {
     const auto call = UnaryCall<v1::ReleaseLeaseResponse>::start(response);
-    leases_.release(to_call(*context, request->context()), request->device(), answering(call));
+    leases_.release(to_lease_call(*context, *request), request->device(), answering(call));
     return call.get();
   }
 
   grpc::ServerUnaryReactor* HandOverLease(grpc::CallbackServerContext* context, const v1::HandOverLeaseRequest* request,
                                           v1::HandOverLeaseResponse* response) override {
     const auto call = UnaryCall<v1::HandOverLeaseResponse>::start(response);
-    leases_.hand_over(to_call(*context, request->context()), request->device(), request->caller(), answering(call));
+    leases_.hand_over(to_lease_call(*context, *request), request->device(), request->caller(), answering(call));
     return call.get();
   }
 
@@ -103,7 +111,7 @@ class ControlService final : public v1::ControlService::CallbackService {
   grpc::ServerUnaryReactor* Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
                                   v1::RearmResponse* response) override {
     const auto call = UnaryCall<v1::RearmResponse>::start(response);
-    leases_.rearm(to_call(*context, request->context()), request->device(),
+    leases_.rearm(to_acting_call(*context, *request), request->device(),
                   answering<std::vector<server::Latch>>(
                       call, [](v1::RearmResponse& answer, const std::vector<server::Latch>& lifted) {
                         answer = proto::to_proto(lifted);

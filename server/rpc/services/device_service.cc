@@ -39,7 +39,7 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   grpc::ServerUnaryReactor* WithdrawStop(grpc::CallbackServerContext* context, const v1::WithdrawStopRequest* request,
                                          v1::WithdrawStopResponse* response) override {
     const auto call = UnaryCall<v1::WithdrawStopResponse>::start(response);
-    devices_.withdraw_stop(to_call(*context, request->context()), request->stop(), answering(call));
+    devices_.withdraw_stop(to_acting_call(*context, *request), request->stop(), answering(call));
     return call.get();
   }
 

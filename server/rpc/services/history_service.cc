@@ -20,14 +20,15 @@ class HistoryService final : public v1::HistoryService::CallbackService {
                                         v1::ListHistoryResponse* response) override {
     const auto call = UnaryCall<v1::ListHistoryResponse>::start(response);
     const int page_size = request->page_size() == 0 ? kPageUsual : request->page_size();
-    history_.list(to_call(*context), proto::to_filter(gateway_, *request), page_size,
-                  answering<api::HistoryPage>(call, [](v1::ListHistoryResponse& answer, const api::HistoryPage& page) {
-                    for (const server::journal::StoredEntry& stored : page.entries)
-                      *answer.add_entries() = proto::to_proto(stored);
-                    if (page.more) answer.set_next_page_token(proto::page_token_after(page.entries.back()));
-                    answer.set_newest(page.newest);
-                    answer.set_own_only(page.own_only);
-                  }));
+    history_.list(
+        to_call(*context), proto::to_filter(gateway_, *request), page_size,
+        answering<api::HistoryPage>(call, [this](v1::ListHistoryResponse& answer, const api::HistoryPage& page) {
+          for (const server::journal::StoredEntry& stored : page.entries)
+            *answer.add_entries() = proto::to_proto(gateway_, stored);
+          if (page.more) answer.set_next_page_token(proto::page_token_after(page.entries.back()));
+          answer.set_newest(page.newest);
+          answer.set_own_only(page.own_only);
+        }));
     return call.get();
   }
 

@@ -35,7 +35,8 @@ class PositionService final : public v1::PositionService::CallbackService {
                                           v1::ListPositionsResponse* response) override {
     using Positions = std::vector<api::NamedPosition>;
     const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
-    if (const auto good = proto::check_page_size(request->page_size()); !good) return call->refuse(good.error());
+    if (const auto good = proto::check_page(request->page_size(), request->page_token()); !good)
+      return call->refuse(good.error());
     positions_.list(
         to_call(*context), request->device(),
         answering<Positions>(call, [this, asked = *request](v1::ListPositionsResponse& answer, Positions positions) {

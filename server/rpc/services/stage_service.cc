@@ -143,7 +143,8 @@ class StageService final : public v1::StageService::CallbackService {
                                         v1::ListMotionsResponse* response) override {
     using Motions = std::vector<api::CurrentMotion>;
     const auto call = UnaryCall<v1::ListMotionsResponse>::start(response);
-    if (const auto good = proto::check_page_size(request->page_size()); !good) return call->refuse(good.error());
+    if (const auto good = proto::check_page(request->page_size(), request->page_token()); !good)
+      return call->refuse(good.error());
     motions_.list(to_call(*context), request->device(),
                   answering<Motions>(call, [asked = *request](v1::ListMotionsResponse& answer, Motions motions) {
                     proto::fill_page(asked, std::move(motions), answer);
@@ -175,7 +176,7 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const v1::CancelMotionRequest* request,
                                          v1::CancelMotionResponse* response) override {
     const auto call = UnaryCall<v1::CancelMotionResponse>::start(response);
-    motions_.cancel(to_call(*context, request->context()), request->motion(), answering(call));
+    motions_.cancel(to_acting_call(*context, *request), request->motion(), answering(call));
     return call.get();
   }
 

@@ -43,7 +43,7 @@ stage::Motion full_motion() {
   motion.segments_total = 20;
   motion.segments_done = 7;
   motion.underruns = 2;
-  motion.scan = stage::ScanResult{-10, 910, 9, 8, 7};
+  motion.scan = stage::ScanResult{-10, 910, 115, 9, 8, 7};
   return motion;
 }
 
@@ -84,6 +84,7 @@ TEST(FactText, AMotionsProblemAndScan) {
   ASSERT_TRUE(motion.scan);
   EXPECT_EQ(motion.scan->run_from, -10);
   EXPECT_EQ(motion.scan->run_to, 910);
+  EXPECT_EQ(motion.scan->interval, 115);
   EXPECT_EQ(motion.scan->expected, 9);
   EXPECT_EQ(motion.scan->expected_in_range, 8);
   EXPECT_EQ(motion.scan->observed, 7);
