@@ -89,6 +89,7 @@ main() {
     stage "tests of tests" check_all /usr/bin/python3 tests/run_python.py tests/tidy
     stage "tests of the mutations" check_all /usr/bin/python3 tests/run_python.py tests/mutants
     stage "tests of the written jobs" check_all /usr/bin/python3 tests/run_python.py tests/jobs
+    stage "tests of the reference page" check_all /usr/bin/python3 tests/run_python.py proto/reference
     stage "tests of the benchmarks" check_all /usr/bin/python3 tests/run_python.py tests/bench
   fi
   stage "C++ tests" check_all /usr/bin/python3 tests/run_cases.py "$build"

@@ -110,6 +110,19 @@ INSTANTIATE_TEST_SUITE_P(
                     Flood{"denied_calls", 400, denied_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
                     Flood{"continuation", 10, continued}));
 
+// Clients that watch over a connection without calls ping it about three times a minute.
+TEST_F(ConversationTest, APingEvery20SecondsIsNoFlood) {
+  open();
+  say(call(1, "/refused"));
+  for (int sent = 0; sent < 180; ++sent) {
+    now += seconds(20);
+    say(frame(FrameType::ping, 0, 0, "12345678"));
+    ASSERT_FALSE(conversation->fault()) << fault() << " after " << sent << " pings";
+    ASSERT_LE(conversation->not_before(), now) << "the connection waits after " << sent << " pings";
+    conversation->check(now, true);
+  }
+}
+
 // A dashboard with many streams acknowledges each message, on the stream and on the connection.
 TEST_F(ConversationTest, WhatAcknowledgesMessagesIsNoFlood) {
   open();
