@@ -49,7 +49,7 @@ TEST_P(AxesBeyond, AreRefusedByEveryUnaryRequest) {
   refuses(*stage_, &Stage::Home, device + "axes: \"1\" axes: \"AXIS\"");
   refuses(*stage_, &Stage::ReturnToOrigin, device + "axes: \"AXIS\"");
   refuses(*stage_, &Stage::Scan,
-          device + "axis: \"AXIS\" from { pulses: 0 } to { pulses: 900 } distance { pulses: 9 }");
+          device + "axis: \"AXIS\" start { pulses: 0 } end { pulses: 900 } distance { pulses: 9 }");
   refuses(*stage_, &Stage::Stop, device + "axes: \"AXIS\"");
   refuses(*stage_, &Stage::Stop, device + "axes: \"2\" axes: \"AXIS\"");
   refuses(*devices_, &v1::DeviceService::Stub::ClearErrors, device + "axes: \"AXIS\"");

@@ -189,7 +189,7 @@ Result<api::Scan> scan(const std::string& text) {
 
 TEST(Scans, AreTakenAsWritten) {
   const auto taken = scan(
-      "axis: \"2\" from { mm: \"-1\" } to { um: \"500\" } speed { um_per_s: \"20\" } acceleration_time { nanos: "
+      "axis: \"2\" start { mm: \"-1\" } end { um: \"500\" } speed { um_per_s: \"20\" } acceleration_time { nanos: "
       "50000000 } "
       "distance { "
       "pulses: 100 }");
@@ -200,7 +200,7 @@ TEST(Scans, AreTakenAsWritten) {
   EXPECT_EQ(written(request.speed.value()), "20um");
   EXPECT_EQ(request.acceleration_ms, 50);
   EXPECT_EQ(std::pair(request.by_scale, written(taken->interval)), std::pair(false, std::string("100pulse")));
-  const auto by_scale = scan("axis: \"3\" from { pulses: 9 } to { pulses: 1 } scale_pulses: 2");
+  const auto by_scale = scan("axis: \"3\" start { pulses: 9 } end { pulses: 1 } scale_pulses: 2");
   ASSERT_TRUE(by_scale);
   EXPECT_EQ(std::pair(by_scale->request.by_scale, written(by_scale->interval)), std::pair(true, std::string("2pulse")));
   EXPECT_FALSE(by_scale->request.speed || by_scale->request.acceleration_ms);
@@ -212,11 +212,11 @@ TEST(Scans, WhatIsMissingIsNamed) {
     return taken ? "taken" : std::string(name(taken.error().reason)) + ": " + taken.error().message;
   };
   EXPECT_EQ(message("axis: \"9\""), "UNKNOWN_AXIS: there is no axis \"9\"");
-  EXPECT_EQ(message("axis: \"1\" from { pulses: 1 } distance { pulses: 2 }"),
+  EXPECT_EQ(message("axis: \"1\" start { pulses: 1 } distance { pulses: 2 }"),
             "INVALID_REQUEST: axis 1: a distance has no amount");
-  EXPECT_EQ(message("axis: \"1\" from { pulses: 1 } to { pulses: 2 } speed {} distance { pulses: 2 }"),
+  EXPECT_EQ(message("axis: \"1\" start { pulses: 1 } end { pulses: 2 } speed {} distance { pulses: 2 }"),
             "INVALID_REQUEST: axis 1: a speed has no amount");
-  EXPECT_EQ(message("axis: \"1\" from { pulses: 1 } to { pulses: 2 }"),
+  EXPECT_EQ(message("axis: \"1\" start { pulses: 1 } end { pulses: 2 }"),
             "INVALID_REQUEST: a scan does not say how far apart its trigger pulses are");
 }
 

@@ -37,7 +37,11 @@ class RpcHistory : public RpcTest {
  protected:
   void SetUp() override {
     using enum EntryKind;
-    Entry moved = by("unix anna", entry(motion_ended, 3, R"({"axes":[1],"kind":"move","outcome":"SUCCEEDED"})"));
+    Entry moved = by(
+        "unix anna",
+        entry(
+            motion_ended, 3,
+            R"({"axes":[1],"kind":"move","outcome":"SUCCEEDED","results":[{"axis":1,"command_pulses":100,"target_pulses":100}]})"));
     Entry returned =
         by("unix anna", entry(motion_ended, 4, R"({"axes":[2],"kind":"return-to-origin","outcome":"FAILED"})"));
     ASSERT_TRUE(server::journal::Store::open(path_)->append(
@@ -91,6 +95,22 @@ class RpcHistory : public RpcTest {
   const std::string path_ = directory_ + ".journal";
   std::unique_ptr<v1::HistoryService::Stub> history_;
 };
+
+TEST_F(RpcHistory, ResultsHaveNamesAndUnits) {
+  v1::ListHistoryRequest request = by_hand();
+  request.set_caller("unix anna");
+  request.set_order(v1::ListHistoryRequest::ORDER_OLDEST_FIRST);
+  v1::ListHistoryResponse response;
+  ASSERT_TRUE(list(request, &response).ok());
+  ASSERT_EQ(response.entries_size(), 2);
+  ASSERT_EQ(response.entries(0).results_size(), 1);
+  const v1::AxisResult& result = response.entries(0).results(0);
+  EXPECT_EQ(result.axis(), 1);
+  EXPECT_EQ(result.command_pulses(), 100);
+  EXPECT_EQ(result.target_pulses(), 100);
+  EXPECT_EQ(result.position(), "1") << "um; a pulse is 10 nm";
+  EXPECT_EQ(response.entries(1).results_size(), 0);
+}
 
 TEST_F(RpcHistory, PagesFollowEachOtherInBothOrders) {
   for (const auto order : {v1::ListHistoryRequest::ORDER_OLDEST_FIRST, v1::ListHistoryRequest::ORDER_NEWEST_FIRST}) {

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <string>
 #include <vector>
 
+#include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/position.grpc.pb.h"
 #include "tests/integration/rpc_fixture.h"
 
@@ -162,6 +164,43 @@ TEST_F(RpcLists, ATransactionThatMovesNamesItsMotion) {
   const auto question = commands_->Execute(&asking, request);
   while (question->Read(&response)) EXPECT_NE(response.change_case(), v1::ExecuteResponse::kMotion);
   EXPECT_TRUE(question->Finish().ok());
+}
+
+// A watcher that begins at next_revision misses no event between the two calls.
+TEST_F(RpcLists, TheListOfDevicesHasTheRevisionAndTheClock) {
+  grpc::ClientContext context;
+  limit(context);
+  v1::ListDevicesResponse listed;
+  ASSERT_TRUE(devices_->ListDevices(&context, v1::ListDevicesRequest(), &listed).ok());
+  EXPECT_EQ(listed.version(), "0.1.0");
+  EXPECT_NEAR(static_cast<double>(listed.time().seconds()), static_cast<double>(std::time(nullptr)), 60);
+  v1::Motion motion;
+  ASSERT_TRUE(move(move_request(1, "0.01"), &motion).ok());
+  grpc::ClientContext watching;
+  limit(watching);
+  v1::WatchRequest request;
+  request.set_from_revision(listed.next_revision());
+  request.set_run(listed.run());
+  const auto events = v1::EventService::NewStub(channel_)->Watch(&watching, request);
+  v1::WatchResponse first;
+  ASSERT_TRUE(events->Read(&first));
+  EXPECT_EQ(first.event().revision(), listed.next_revision());
+  EXPECT_EQ(first.event().motion().name(), motion.name());
+  watching.TryCancel();
+  outcome(motion.name());
+}
+
+TEST_F(RpcLists, AMotionIsFoundByItsRequestId) {
+  v1::MoveRequest asked = move_request(1, "0.01");
+  asked.mutable_context()->set_request_id("scan-17");
+  v1::Motion motion;
+  ASSERT_TRUE(move(asked, &motion).ok());
+  outcome(motion.name());
+  ASSERT_TRUE(move(move_request(1, "0.02"), &motion).ok());
+  outcome(motion.name());
+  v1::ListMotionsRequest request;
+  request.set_request_id("scan-17");
+  EXPECT_THAT(ids(motions(request)), ElementsAre("1"));
 }
 
 }  // namespace
