@@ -33,8 +33,7 @@ tl::unexpected<Problem> refused(std::string message) {
 
 }  // namespace
 
-LeaseTokens::LeaseTokens(std::uint32_t generation)
-    : generation_(generation), next_((LeaseToken{generation} << kGenerationBits) + 1) {
+LeaseTokens::LeaseTokens(std::uint32_t generation) : next_((LeaseToken{generation} << kGenerationBits) + 1) {
   if (RAND_bytes(key_.data(), static_cast<int>(key_.size())) != 1) throw std::runtime_error("no random numbers");
 }
 
@@ -60,9 +59,7 @@ Result<LeaseToken> LeaseTokens::open(std::string_view sealed) const {
   if (sealed.size() != kSealedBytes) return refused("what was given is no lease token");
   const std::string_view number = sealed.substr(0, sizeof(LeaseToken)), seal = sealed.substr(sizeof(LeaseToken));
   if (CRYPTO_memcmp(seal_of(number).data(), seal.data(), kSealBytes) == 0) return to_number(number);
-  const bool earlier = to_number(number) >> kGenerationBits < generation_;
-  return refused(earlier ? "no lease has this token; those of before the daemon's start have ended"
-                         : "no lease has this token");
+  return refused(kNoSuchLease);
 }
 
 }  // namespace axisgate::server

@@ -13,6 +13,9 @@ namespace axisgate::server {
 
 using LeaseToken = std::uint64_t;  // 0: none
 
+// Message about a token that no lease has.
+inline constexpr const char* kNoSuchLease = "no lease has this token; those of before the daemon's start have ended";
+
 // Later tokens are greater, also over restarts of the daemon. Thread safe.
 class LeaseTokens {
  public:
@@ -38,7 +41,6 @@ class LeaseTokens {
   using Seal = std::array<unsigned char, kSealBytes>;
   Seal seal_of(std::string_view number) const;
 
-  const std::uint32_t generation_;
   std::array<unsigned char, 32> key_{};  // drawn at every start
   std::atomic<LeaseToken> next_;
 };

@@ -8,6 +8,7 @@
 #include "device/core/guard.h"
 #include "device/core/spans.h"
 #include "server/access/access.h"
+#include "server/access/lease_tokens.h"
 
 namespace axisgate::server {
 namespace {
@@ -23,10 +24,9 @@ Leases::Held* Leases::find(LeaseToken token) {
 
 Problem Leases::lost_problem(LeaseToken token) const {
   const auto ended = std::ranges::find_if(ended_, [token](const Ended& one) { return one.token == token; });
-  return {
-      .reason = Reason::lease_lost,
-      .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + text_of(ended->ending),
-      .hint = "acquire another one: `AcquireLease`"};
+  return {.reason = Reason::lease_lost,
+          .message = ended == ended_.end() ? kNoSuchLease : "the lease has ended: " + text_of(ended->ending),
+          .hint = "acquire another one: `AcquireLease`"};
 }
 
 Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {

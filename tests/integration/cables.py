@@ -13,8 +13,8 @@ from programs import BIN, LIMIT_S, Lines
 class Unit:
     """One shrc203-sim, and what it was told: it runs whether a cable is plugged in or not."""
 
-    def __init__(self, path, serial_number):
-        self._program = Lines([BIN / "shrc203-sim", "--pty", path, "--serial-number", serial_number])
+    def __init__(self, path, serial_number, *options):
+        self._program = Lines([BIN / "shrc203-sim", "--pty", path, "--serial-number", serial_number, *options])
         self._program.until("simulator on")
         self.tty = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
         self.serial_number = serial_number

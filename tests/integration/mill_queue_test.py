@@ -171,7 +171,7 @@ class AQueueOfEightPlaces(Queue):
     def test_nobody_is_shut_out(self):
         for who, name in (("nobody", "callers without a name"), ("anna", "token anna")):
             self.send(who, who)
-            self.refused_to_send(who, rf"2 jobs of {name} are in the queue, the most for one caller .*mill cancel JOB")
+            self.refused_to_send(who, rf"2 jobs of {name} are in the queue, the most for one caller .*mill cancel`")
         self.send("bert", "carl")
         self.well("bert", "mill", "clear", "token anna")
         self.send("bert", "anna")

@@ -140,7 +140,7 @@ class Positions(unittest.TestCase):
         self.assertIn("the controller may have lost it", listed[1])
         told = self.refused(3, "EPOCH_PASSED", "go", "place")
         self.assertRegex(told, r'"place" is no longer there: .*PIT:.* came back \d+ s ago.*restarted.*'
-                               r'axisctl save place\)')
+                               r'axisctl save`\)')
         self.assertEqual(self.at(), "axis x  0 mm")
         self.ok("go", "numbers")
         self.assertEqual(self.at(), "axis x  1 mm")

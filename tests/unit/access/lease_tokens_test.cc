@@ -30,7 +30,7 @@ TEST(LeaseTokensTest, ATokenOfAnEarlierRunIsNoMore) {
   const std::string sealed = before.seal(before.next());
   EXPECT_EQ(after.open(sealed).error().message,
             "no lease has this token; those of before the daemon's start have ended");
-  EXPECT_EQ(same.open(sealed).error().message, "no lease has this token") << "two runs share no key";
+  EXPECT_EQ(same.open(sealed).error().message, kNoSuchLease) << "two runs share no key";
 }
 
 }  // namespace
