@@ -1,0 +1,38 @@
+package axisgate
+
+import (
+	"strconv"
+
+	axisgatev1 "axisgate.example/go/axisgate/v1"
+)
+
+// A cursor knows the first event that a watcher has not received yet. `first` is its revision. nil: only new events; 0:
+// all kept events. `run` is the run of the event before it, or empty.
+type cursor struct {
+	device string
+	first  *uint64
+	run    string
+}
+
+func (c *cursor) request() *axisgatev1.WatchRequest {
+	return &axisgatev1.WatchRequest{Device: c.device, FromRevision: c.first, Run: c.run}
+}
+
+// take moves past an event.
+func (c *cursor) take(event *axisgatev1.Event) {
+	next := event.Revision + 1
+	c.first, c.run = &next, event.Run
+}
+
+// gapAfter returns the gap that the failure reports, and moves to its end. nil: the failure is another one.
+func (c *cursor) gapAfter(f failure) *Gap {
+	if f.reason() != "COMPACTED" {
+		return nil
+	}
+	resume, err := strconv.ParseUint(f.problem.Metadata["resume_revision"], 10, 64)
+	if err != nil {
+		return nil
+	}
+	c.first, c.run = &resume, ""
+	return &Gap{ResumeRevision: &resume}
+}
