@@ -1,0 +1,91 @@
+"""One axis of a stage in the asyncio form."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Awaitable, Optional, Tuple
+
+from axisgate._methods import MOVE
+from axisgate._requests import axis_move
+from axisgate.aio.motion import Motion
+from axisgate.results import Position, Result, StopReport
+from axisgate.state import AxisState
+from axisgate.units import Distance, Speed, Unit
+from axisgate.v1 import stage_pb2
+
+if TYPE_CHECKING:
+    from axisgate.aio.stage import Stage
+
+
+class Axis:
+    """An Axis of a stage. Its properties that change are awaited, and read from the controller each time. All functions
+    raise Refused if the daemon refuses a request."""
+
+    def __init__(self, stage: Stage, state: AxisState) -> None:
+        self._stage = stage
+        self.name: str = state.name
+        """Name from the configuration, or the number as text."""
+        self.number: int = state.number
+        """Number, from 1."""
+        self.unit: Unit = state.unit
+        """Unit in which positions are shown."""
+
+    @property
+    def position(self) -> Awaitable[Position]:
+        """Present position."""
+        return self._position()
+
+    @property
+    def pulses(self) -> Awaitable[Optional[int]]:
+        """Present position in drive pulses. None if unknown."""
+        return self._pulses()
+
+    @property
+    def limits(self) -> Awaitable[Tuple[Optional[Distance], Optional[Distance]]]:
+        """Lowest and highest position that the configuration allows. None: no limit."""
+        return self._limits()
+
+    async def start(self, target: Distance, *, relative: bool = False, speed: Optional[Speed] = None,
+                    approach: Optional[Distance] = None) -> Motion:
+        """Starts a move. See axisgate.Axis.start()."""
+        return await self._stage._session.start(MOVE, self._request(target, relative, speed, approach))
+
+    async def move_to(self, target: Distance, *, speed: Optional[Speed] = None,
+                      approach: Optional[Distance] = None) -> Result:
+        """Moves to a position, and waits for the outcome. The motion is cancelled if the task is.
+
+        Raises Refused, Stopped, MotionFailed or OutcomeUnknown.
+        """
+        return await self._stage._session.finish(MOVE, self._request(target, False, speed, approach))
+
+    async def move_by(self, displacement: Distance, *, speed: Optional[Speed] = None,
+                      approach: Optional[Distance] = None) -> Result:
+        """Does the same as move_to() with a displacement from the present position."""
+        return await self._stage._session.finish(MOVE, self._request(displacement, True, speed, approach))
+
+    async def home(self, *, if_needed: bool = False) -> Result:
+        """Homes the axis, and waits for the outcome. See Stage.home()."""
+        return await self._stage.home(self.name, if_needed=if_needed)
+
+    async def stop(self) -> StopReport:
+        """Stops the axis. See Stage.stop()."""
+        return await self._stage.stop(self.name)
+
+    def __repr__(self) -> str:
+        return f"<Axis {self.name} of {self._stage.name}>"
+
+    async def _state(self) -> AxisState:
+        return (await self._stage.status(max_age=0.0)).axes[self.name]
+
+    async def _position(self) -> Position:
+        return (await self._state()).position
+
+    async def _pulses(self) -> Optional[int]:
+        return (await self._state()).position.pulses
+
+    async def _limits(self) -> Tuple[Optional[Distance], Optional[Distance]]:
+        state = await self._state()
+        return state.minimum, state.maximum
+
+    def _request(self, target: Distance, relative: bool, speed: Optional[Speed],
+                 approach: Optional[Distance]) -> stage_pb2.MoveRequest:
+        return axis_move(self._stage._session.device, self.number, target, relative, speed, approach)
