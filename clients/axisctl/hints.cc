@@ -10,8 +10,12 @@ struct Row {
   std::string_view command;  // "{}" is the axis
 };
 
-// A field that is an option of several commands.
-constexpr std::string_view kAcceptedWarnings = "`accepted_warnings`", kAccept = "--accept";
+// Fields that are options of several commands.
+constexpr Row kOptions[] = {
+    {"`accepted_warnings`", "--accept"},
+    {"acquire a lease with `wait`", "add --wait SECONDS"},
+    {"set a later `not_after`", "add --wait SECONDS"},
+};
 
 // A call with a field comes before the same call alone.
 constexpr Row kRows[] = {
@@ -68,7 +72,7 @@ std::string with_commands(std::string_view hint, int axis) {
   for (const auto& [call, command] : kRows) {
     replace_all(text, call, fmt::format("`axisctl {}`", fmt::format(fmt::runtime(command), name)));
   }
-  replace_all(text, kAcceptedWarnings, kAccept);
+  for (const auto& [field, option] : kOptions) replace_all(text, field, option);
   return text;
 }
 

@@ -193,7 +193,7 @@ std::optional<Problem> Leases::held_problem(Scope scope, TimePoint now) const {
     return Problem{.reason = Reason::lease_held,
                    .message = fmt::format("{} {} {} for {}{}", who, does, to_string(terms.scope),
                                           for_people(now - since), purpose),
-                   .hint = "to wait, add --wait SECONDS; or ask the holder to hand over"};
+                   .hint = "to wait, acquire a lease with `wait`; or ask the holder to hand over"};
   };
   for (const Held& held : held_) {
     if (held.lease.terms.scope.touches(scope)) {
@@ -215,7 +215,7 @@ std::optional<Problem> Leases::in_the_way(Scope scope, TimePoint now) const {
     if (!running.use.scope.touches(scope)) continue;
     return Problem{.reason = Reason::lease_held,
                    .message = text_of(running.occupation, now),
-                   .hint = "to wait until it has ended, add --wait SECONDS; or stop it"};
+                   .hint = "to wait until it has ended, acquire a lease with `wait`; or stop it"};
   }
   return {};
 }

@@ -23,6 +23,8 @@ TEST(Hints, TheCommandHasTheAxis) {
 TEST(Hints, AFieldThatIsAnOptionBecomesTheOption) {
   EXPECT_EQ(with_commands("accept what is right: `accepted_warnings` deep-pass", 0),
             "accept what is right: --accept deep-pass");
+  EXPECT_EQ(with_commands("to wait, acquire a lease with `wait`; or stop it", 0),
+            "to wait, add --wait SECONDS; or stop it");
 }
 
 TEST(Hints, ACallWithoutACommandStays) { EXPECT_EQ(with_commands("see `GetSomething`", 0), "see `GetSomething`"); }

@@ -13,6 +13,7 @@ JUDGED = ("device/", "server/")
 OWN = ("device/stage/recording/recording_parse.cc", "server/access/tokens.cc", "server/devices/device_events.cc")
 
 _LITERAL = re.compile(r'"(?:\\.|[^"\\\n])*"')
+_OPTION = re.compile(r"\badd --[a-z]")
 _CALL = re.compile(r"`([A-Z][A-Za-z]+)`")
 _RPC = re.compile(r"^ *rpc (\w+)\(", re.MULTILINE)
 
@@ -35,8 +36,8 @@ def check_all(files):
         if file.language != "C++" or not file.path.startswith(JUDGED):
             continue
         for line, text in _literals(file):
-            if "axisctl" in text and file.path not in OWN:
-                yield file.finding(line, "hint-call", "a text for callers names axisctl", "name the call: `Stop`")
+            if file.path not in OWN and ("axisctl" in text or _OPTION.search(text)):
+                yield file.finding(line, "hint-call", "a text for callers is about axisctl", "name the call: `Stop`")
             for name in _CALL.findall(text):
                 if name not in rpcs:
                     yield file.finding(line, "hint-call", f"`{name}` is no call of the API", "correct the name")

@@ -30,7 +30,8 @@ class Hints(unittest.TestCase):
         self.assertEqual(findings("", table=File(hints.TABLE, '"`Halt`"')), ["`Halt` is no call of the API"])
 
     def test_a_command_of_axisctl_is_found_where_callers_read(self):
-        self.assertEqual(findings('fail("see `axisctl stop`");'), ["a text for callers names axisctl"])
+        for text in ("see `axisctl stop`", "to wait, add --wait SECONDS"):
+            self.assertEqual(findings(f'fail("{text}");'), ["a text for callers is about axisctl"])
         self.assertEqual(findings('fail("see `axisctl stop`");', path=hints.OWN[0]), [])
         self.assertEqual(findings("// As axisctl does."), [])
 

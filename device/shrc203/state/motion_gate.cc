@@ -59,7 +59,7 @@ void MotionGate::expire(const std::function<std::string(AxisSet)>& inside) {
     entry.answer.deliver(fail(Reason::deadline_passed,
                               "the time allowed passed before the motion had its turn: " +
                                   (had_them.empty() ? what_goes_first(entry) : had_them),
-                              "to wait longer, add --wait SECONDS (in the API: not_after); or stop it"));
+                              "to wait longer, set a later `not_after`; or stop it"));
   });
   admit();
 }
