@@ -119,7 +119,7 @@ class World:
         made = self.daemon.run("token", "create", f"conform-{self._tokens}", "--role", role)
         return made.stdout.strip()
 
-    # What the scenario's acts of the world are called.
+    # The acts of the scenario.
 
     def axisctl(self, *words):
         done = self.daemon.run(*words)
@@ -187,7 +187,7 @@ class World:
     def _stage(self):
         return json.loads(self.daemon.run("--json", "status").stdout)
 
-    # What it has seen.
+    # Observations.
 
     def starts(self):
         """The number of lines so far that started motion."""
