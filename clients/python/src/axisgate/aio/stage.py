@@ -163,7 +163,8 @@ class Stage:
         """Starts a path through points without a halt: ``await stage.path(grid, "xy", speed=2 * mm / s)``.
 
         A point is an Arc, or has one position for each axis, in their order. All points are read first, so nothing
-        moves if `points` raises an exception. `speed` is the speed along the path. None: as the axes are set.
+        moves if `points` raises an exception. `speed` is the speed along the path. None: the minimum speed of its
+        axis with the lowest number, which is slow.
         """
         return await path.start(self._session, points, names_of(axes, self._axes), speed)
 
