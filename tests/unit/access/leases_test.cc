@@ -141,7 +141,7 @@ TEST_F(LeasesTest, WhoWillNotWaitLearnsWhoMoves) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, Reason::lease_held);
   EXPECT_EQ(refused.error().message, "axis 1 is in motion 7 (move by bert)");
-  EXPECT_THAT(refused.error().hint, HasSubstr("--wait SECONDS"));
+  EXPECT_THAT(refused.error().hint, HasSubstr("acquire a lease with `wait`"));
   leases_.due(7, now_ + std::chrono::milliseconds(3500));
   EXPECT_EQ(acquire("anna", kOne).error().message, "axis 1 is in motion 7 (move by bert, 4 s left)");
   EXPECT_TRUE(acquire("anna", kTwo));
