@@ -81,6 +81,29 @@ TEST_F(RpcJobPieces, ARequestIdAndSmallPiecesAreNeeded) {
   EXPECT_EQ(reason(try_piece(0, "PU;", false)), v1::REASON_INVALID_REQUEST);
 }
 
+// A caller over loopback without a credential has another port with each connection.
+TEST_F(RpcJobPieces, PiecesMayComeOverSeveralConnections) {
+  v1::SendJobPieceRequest request;
+  *request.mutable_header() = header_;
+  request.set_data(job_.substr(0, 10));
+  for (const std::int64_t received : {std::int64_t{10}, bytes_}) {
+    grpc::ChannelArguments own_connection;
+    own_connection.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    const auto channel =
+        grpc::CreateCustomChannel(to_string(doors_->listen()), grpc::InsecureChannelCredentials(), own_connection);
+    grpc::ClientContext context;
+    limit(context);
+    v1::SendJobPieceResponse response;
+    const grpc::Status status = v1::MillService::NewStub(channel)->SendJobPiece(&context, request, &response);
+    ASSERT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(response.received(), received);
+    request.set_offset(10);
+    request.set_data(job_.substr(10));
+    request.set_last(true);
+  }
+  EXPECT_EQ(now().jobs_size(), 1);
+}
+
 TEST_F(RpcJobPieces, ACallerHasFourUnfinishedJobs) {
   for (const char* id : {"1", "2", "3", "4"}) {
     header_.mutable_context()->set_request_id(id);

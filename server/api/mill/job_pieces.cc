@@ -6,6 +6,7 @@
 #include <atomic>
 #include <vector>
 
+#include "server/access/access.h"
 #include "server/api/request/names.h"
 #include "server/limits.h"
 #include "server/spool/sha256.h"
@@ -66,7 +67,7 @@ Result<JobPieces::UnfinishedPtr> JobPieces::find_or_begin(const Key& key, const 
       kept_->jobs, [&key](const auto& one) { return one.first.first == key.first && !one.second->is_queued; });
   if (static_cast<std::size_t>(of_caller) >= kUnfinishedJobsMax) {
     return fail(Reason::queue_full,
-                fmt::format("{} has begun {} jobs and not sent their last pieces", key.first, of_caller),
+                fmt::format("the caller has begun {} jobs and not sent their last pieces", of_caller),
                 "finish one of them, or wait until its pieces are dropped");
   }
   if (!job) return tl::unexpected(job.error());
@@ -86,7 +87,7 @@ void JobPieces::take(const Call& call, std::string_view device, const Result<Job
   if (const Result<void> good = check_piece(call, piece); !good) return answer(tl::unexpected(good.error()));
   const auto admitted = pipeline_.admit({RequestKind::send_job_piece, call, find_mill(gateway_, device)});
   if (!admitted) return answer(tl::unexpected(admitted.error()));
-  const Key key(admitted->caller.who, call.request_id);
+  const Key key(server::identity_of(admitted->caller.who), call.request_id);
   const Result<UnfinishedPtr> found = find_or_begin(key, call, device, job, piece);
   if (!found) return answer(tl::unexpected(found.error()));
   if (*found == nullptr) return answer(PieceTaken{});

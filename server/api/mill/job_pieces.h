@@ -54,7 +54,7 @@ class JobPieces {
 
  private:
   struct Unfinished;
-  using Key = std::pair<std::string, std::string>;  // caller and request_id
+  using Key = std::pair<std::string, std::string>;  // server::identity_of() the caller, and request_id
   using UnfinishedPtr = std::shared_ptr<Unfinished>;
   // Shared with the answers of uploads and with timeouts, which may outlive the JobPieces.
   struct Kept {
