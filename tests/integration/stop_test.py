@@ -101,7 +101,7 @@ class Stops(unittest.TestCase):
         self.daemon = Daemon(self.folder, HEAD + STAGE.format("stage"))
         self.addCleanup(self.daemon.stop)
         refused = self.daemon.run("move", "1=1mm")
-        self.assertRegex(refused.stderr, r"EMERGENCY_STOPPED: unix \S+ requested an emergency stop [^\n]* axisctl clear")
+        self.assertRegex(refused.stderr, r"EMERGENCY_STOPPED: unix \S+ requested an emergency stop [^\n]*`axisctl clear`")
         remains = "the emergency stop of unix \\S+ remains, and nothing moves: `axisctl clear` ends it\n"
         self.assertRegex(self.daemon.run("rearm").stdout, remains)
         half = self.daemon.run("clear", "1")
