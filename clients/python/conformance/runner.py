@@ -165,6 +165,7 @@ def reply_to_error(error):
 
 
 def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it
     acts = Acts()
     for line in sys.stdin:
         print(json.dumps(reply_to(acts, json.loads(line))), flush=True)

@@ -1,6 +1,7 @@
 """Motions, refusals, stops and lost answers, with the real daemon."""
 
 import _thread
+import signal
 import threading
 import time
 import unittest
@@ -124,6 +125,11 @@ class Ends(DaemonTest):
 
 
 class Interrupted(DaemonTest):
+    def setUp(self):
+        super().setUp()
+        # A shell's background jobs ignore it.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+
     def test_ctrl_c_cancels_a_move(self):
         stage = self.open()
         wait_until(lambda: stage.status().link == "UP", "the link")
