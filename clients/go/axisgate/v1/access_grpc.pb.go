@@ -34,8 +34,8 @@ const (
 // Shows callers how the daemon identifies them, and manages tokens.
 //
 // The daemon identifies a caller by the user of the Unix socket, by a client certificate, or by a token. A token has
-// precedence over the others. A call has it in its metadata: `authorization` is "Bearer " followed by the token. Both
-// of the following are checked before anything else.
+// precedence over the others. A call carries its token in its metadata: `authorization` is "Bearer " followed by the
+// token. The token and the role are checked before anything else.
 // Every RPC fails with UNAUTHENTICATED if the token is wrong, expired or revoked, whatever the connection.
 // Every RPC fails with NOT_ALLOWED if the caller's role does not allow the call.
 type AccessServiceClient interface {
@@ -112,8 +112,8 @@ func (c *accessServiceClient) RevokeToken(ctx context.Context, in *RevokeTokenRe
 // Shows callers how the daemon identifies them, and manages tokens.
 //
 // The daemon identifies a caller by the user of the Unix socket, by a client certificate, or by a token. A token has
-// precedence over the others. A call has it in its metadata: `authorization` is "Bearer " followed by the token. Both
-// of the following are checked before anything else.
+// precedence over the others. A call carries its token in its metadata: `authorization` is "Bearer " followed by the
+// token. The token and the role are checked before anything else.
 // Every RPC fails with UNAUTHENTICATED if the token is wrong, expired or revoked, whatever the connection.
 // Every RPC fails with NOT_ALLOWED if the caller's role does not allow the call.
 type AccessServiceServer interface {

@@ -275,16 +275,17 @@ func (Unit) EnumDescriptor() ([]byte, []int) {
 // are exempt.
 // Fails with DAEMON_ENDING while the daemon ends. ListDevices, Stop and EmergencyStop are exempt.
 //
-// Every request with a CallContext can also fail with the following reasons, as far as it uses the field of the
-// context:
+// A request with a CallContext can also fail with the following reasons. Each belongs to a field of the context, and
+// does not occur if the field is unset:
 // Fails with INVALID_REQUEST if request_id is too long or has other characters than printable ASCII.
 // Fails with REQUEST_ID_REUSED as CallContext.request_id says, and with REQUEST_MEMORY_LOST as
 // CallContext.request_memory says.
 // Fails with LEASE_LOST if lease_token is the token of a lease that has ended, or of no lease.
 // Fails with EPOCH_PASSED as CallContext.device_epoch and CallContext.frame_epoch say.
 // Fails with DEADLINE_PASSED as CallContext.not_after says.
-// Fails with JOURNAL_UNAVAILABLE if the request moves something, or changes something on a stage, and cannot be written
-// to the journal.
+//
+// Whatever the context, a request that moves something, or changes something on a stage, fails with
+// JOURNAL_UNAVAILABLE if it cannot be written to the journal.
 // Stop, EmergencyStop and AbortJob never fail because of their context.
 type Reason int32
 
@@ -1411,7 +1412,8 @@ type Problem struct {
 	Sent string `protobuf:"bytes,5,opt,name=sent,proto3" json:"sent,omitempty"`
 	// The controller's reply, escaped. May be empty.
 	WireReply string `protobuf:"bytes,6,opt,name=wire_reply,json=wireReply,proto3" json:"wire_reply,omitempty"`
-	// "resume_revision", with COMPACTED only: the oldest revision that is still kept.
+	// "resume_revision", with COMPACTED only: the oldest revision that is still kept. To resume there, leave
+	// WatchRequest.run empty.
 	Metadata      map[string]string `protobuf:"bytes,7,rep,name=metadata,proto3" json:"metadata,omitempty" protobuf_key:"bytes,1,opt,name=key" protobuf_val:"bytes,2,opt,name=value"`
 	unknownFields protoimpl.UnknownFields
 	sizeCache     protoimpl.SizeCache

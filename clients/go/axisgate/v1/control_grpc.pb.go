@@ -91,10 +91,10 @@ type ControlServiceClient interface {
 	// Fails with QUEUE_FULL if too many streams are open.
 	WatchLeases(ctx context.Context, in *WatchLeasesRequest, opts ...grpc.CallOption) (grpc.ServerStreamingClient[WatchLeasesResponse], error)
 	// Ends the latches that other callers' stops have set: those of the lease whose token is in the context, of all
-	// leases of the same caller, and of the caller's motions without a lease. Callers over loopback without a credential
-	// count as one: each rearms for all of them, but not for the leases of others. Without a token, the latches of the
-	// caller's own leases and motions end; a caller over loopback without a credential needs the token of the lease.
-	// Succeeds also if there is no latch; the answer is then empty.
+	// leases of the same caller, and of the caller's motions without a lease. Without a token, the latches of the
+	// caller's own leases and motions end. Programs over loopback without a credential count as one caller: each of them
+	// rearms for the motions of all, but needs the token of a lease to rearm for the lease. Succeeds even if there is no
+	// latch; the answer is then empty.
 	// Fails with UNKNOWN_DEVICE if no such device is configured.
 	// Fails with LEASE_LOST if the token is not a token of this run of the daemon.
 	Rearm(ctx context.Context, in *RearmRequest, opts ...grpc.CallOption) (*RearmResponse, error)
@@ -260,10 +260,10 @@ type ControlServiceServer interface {
 	// Fails with QUEUE_FULL if too many streams are open.
 	WatchLeases(*WatchLeasesRequest, grpc.ServerStreamingServer[WatchLeasesResponse]) error
 	// Ends the latches that other callers' stops have set: those of the lease whose token is in the context, of all
-	// leases of the same caller, and of the caller's motions without a lease. Callers over loopback without a credential
-	// count as one: each rearms for all of them, but not for the leases of others. Without a token, the latches of the
-	// caller's own leases and motions end; a caller over loopback without a credential needs the token of the lease.
-	// Succeeds also if there is no latch; the answer is then empty.
+	// leases of the same caller, and of the caller's motions without a lease. Without a token, the latches of the
+	// caller's own leases and motions end. Programs over loopback without a credential count as one caller: each of them
+	// rearms for the motions of all, but needs the token of a lease to rearm for the lease. Succeeds even if there is no
+	// latch; the answer is then empty.
 	// Fails with UNKNOWN_DEVICE if no such device is configured.
 	// Fails with LEASE_LOST if the token is not a token of this run of the daemon.
 	Rearm(context.Context, *RearmRequest) (*RearmResponse, error)

@@ -447,7 +447,7 @@ type Device struct {
 	// Setting of the trigger output. Unset: unknown.
 	Trigger *Trigger `protobuf:"bytes,18,opt,name=trigger,proto3" json:"trigger,omitempty"`
 	// Open stops, oldest first: their axes were not confirmed stationary. They are repeated as soon as the controller
-	// answers. No motion of their axes starts. Once a stop is `late`, motion fails with STOP_UNCONFIRMED, or with
+	// answers. Motion of their axes waits; once OpenStop.late is true, it fails with STOP_UNCONFIRMED, or with
 	// STALE_SETPOINT if `stale_setpoint` is set.
 	OpenStops []*OpenStop `protobuf:"bytes,19,rep,name=open_stops,json=openStops,proto3" json:"open_stops,omitempty"`
 	// Latch of an emergency stop, whether or not the stop reached the controller. Set until ClearErrors for all axes; all
@@ -1223,9 +1223,9 @@ type ListDevicesResponse struct {
 	Version string `protobuf:"bytes,4,opt,name=version,proto3" json:"version,omitempty"`
 	// Present time of the daemon, for CallContext.not_after of a program whose clock differs.
 	Time *timestamppb.Timestamp `protobuf:"bytes,5,opt,name=time,proto3" json:"time,omitempty"`
-	// Revision of the first event after this answer, and the run of the daemon, for WatchRequest: no event is missed
-	// between the two calls.
-	NextRevision  uint64 `protobuf:"varint,6,opt,name=next_revision,json=nextRevision,proto3" json:"next_revision,omitempty"`
+	// Revision of the first event after this answer. A Watch from this revision misses no event between the two calls.
+	NextRevision uint64 `protobuf:"varint,6,opt,name=next_revision,json=nextRevision,proto3" json:"next_revision,omitempty"`
+	// Present run of the daemon, for WatchRequest.run.
 	Run           string `protobuf:"bytes,7,opt,name=run,proto3" json:"run,omitempty"`
 	unknownFields protoimpl.UnknownFields
 	sizeCache     protoimpl.SizeCache

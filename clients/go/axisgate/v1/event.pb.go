@@ -143,7 +143,8 @@ type WatchRequest struct {
 	// Device name: "devices/{d}". Empty: all devices. With one device, the revisions have gaps. DaemonStarted is
 	// delivered in both cases.
 	Device string `protobuf:"bytes,2,opt,name=device,proto3" json:"device,omitempty"`
-	// Event.run of the last received event, or of from_revision itself; may be an earlier run. Empty: not checked.
+	// Run to which from_revision belongs: Event.run of the last received event, or ListDevicesResponse.run. May be an
+	// earlier run. Fails with COMPACTED if the daemon does not know the run. Empty: not checked.
 	Run           string `protobuf:"bytes,3,opt,name=run,proto3" json:"run,omitempty"`
 	unknownFields protoimpl.UnknownFields
 	sizeCache     protoimpl.SizeCache
@@ -248,7 +249,8 @@ func (x *WatchResponse) GetEvent() *Event {
 type Event struct {
 	state protoimpl.MessageState `protogen:"open.v1"`
 	// Number of the event, ascending over all devices and over restarts. It has no gaps while the daemon runs. After an
-	// unclean end there is a gap before DaemonStarted. No revision is used twice while the journal is kept.
+	// unclean end, 100,000 numbers are left out before DaemonStarted. No revision is used twice while the journal is
+	// kept.
 	Revision uint64 `protobuf:"varint,1,opt,name=revision,proto3" json:"revision,omitempty"`
 	// Time of the event by the gateway's wall clock.
 	Time *timestamppb.Timestamp `protobuf:"bytes,2,opt,name=time,proto3" json:"time,omitempty"`
@@ -484,7 +486,7 @@ type Event_Link struct {
 }
 
 type Event_StopRequested struct {
-	// A stop, an emergency stop or the abort of a mill was requested.
+	// A stop, an emergency stop or the abort of a mill was requested. Event.stop reports later what became of it.
 	StopRequested *StopRequested `protobuf:"bytes,8,opt,name=stop_requested,json=stopRequested,proto3,oneof"`
 }
 
@@ -560,8 +562,8 @@ func (*Event_EmergencyLatch) isEvent_Fact() {}
 type DaemonStarted struct {
 	state protoimpl.MessageState `protogen:"open.v1"`
 	// True if the previous run did not end normally: it was killed, or the machine lost power. Events of its last moments
-	// may be missing, also events that a watcher received. 100,000 revisions are left out before this event, so that
-	// theirs are not used again.
+	// may be missing, even events that a watcher received. Therefore 100,000 revisions are left out before this event: no
+	// lost event's revision is used again.
 	AfterUncleanEnd bool `protobuf:"varint,1,opt,name=after_unclean_end,json=afterUncleanEnd,proto3" json:"after_unclean_end,omitempty"`
 	unknownFields   protoimpl.UnknownFields
 	sizeCache       protoimpl.SizeCache

@@ -110,8 +110,9 @@ const (
 	// The controller reports READY and no error, and the command counter is exactly at the target. For a jog: its caller
 	// ended it, and the axes are stationary.
 	MotionState_MOTION_STATE_SUCCEEDED MotionState = 4
-	// A stop ended the motion, or prevented its start. Of a jog also: the caller was silent, disconnected, lost the lease
-	// or sent a message that was refused, or an axis came near its travel limit. Motion.problem has the reason.
+	// A stop ended the motion, or prevented its start. A jog is also stopped when its caller is silent, disconnects,
+	// loses the lease or sends a message that is refused, and when an axis comes near its travel limit. Motion.problem
+	// has the reason.
 	MotionState_MOTION_STATE_STOPPED MotionState = 5
 	// The motion could not be started, ended with an error, or did not reach its target. Motion.problem has the reason.
 	MotionState_MOTION_STATE_FAILED MotionState = 6
@@ -433,16 +434,18 @@ type Scan struct {
 	ExpectedTriggers *int64 `protobuf:"varint,3,opt,name=expected_triggers,json=expectedTriggers,proto3,oneof" json:"expected_triggers,omitempty"`
 	// Number of trigger pulses due within the range. Unset for scale pulses if the resolution of the scale is unknown.
 	ExpectedTriggersInRange *int64 `protobuf:"varint,4,opt,name=expected_triggers_in_range,json=expectedTriggersInRange,proto3,oneof" json:"expected_triggers_in_range,omitempty"`
-	// Number of trigger pulses computed from the displacement while the trigger was armed. The displacement is measured
-	// with the counter that the trigger counts; the controller does not report how many pulses it gave. Unset: the scan
-	// has not ended, or the counter could not be read.
+	// Number of trigger pulses in the whole run, computed from the displacement while the trigger was armed: equal to
+	// expected_triggers unless the scan ended early. The displacement is measured with the counter that the trigger
+	// counts; the controller does not report how many pulses it gave. Unset: the scan has not ended, or the counter could
+	// not be read.
 	ObservedTriggers *int64 `protobuf:"varint,5,opt,name=observed_triggers,json=observedTriggers,proto3,oneof" json:"observed_triggers,omitempty"`
 	// run_from_pulses in the unit of the axis (AxisResult.unit), as an exact decimal. Empty if the resolution is unknown.
 	RunFrom string `protobuf:"bytes,6,opt,name=run_from,json=runFrom,proto3" json:"run_from,omitempty"`
 	// run_to_pulses in the unit of the axis, as an exact decimal. Empty if the resolution is unknown.
 	RunTo string `protobuf:"bytes,7,opt,name=run_to,json=runTo,proto3" json:"run_to,omitempty"`
-	// Distance between two trigger pulses in drive pulses; negative for a run in the minus direction. The first trigger
-	// pulse is this distance from run_from_pulses. Unset for scale pulses.
+	// Distance between two trigger pulses in drive pulses; negative for a run in the minus direction. Trigger pulse n,
+	// counted from 1, is at run_from_pulses + n * interval_pulses; for the position in the unit of the axis, multiply by
+	// Axis.per_pulse. Unset for scale pulses.
 	IntervalPulses *int64 `protobuf:"zigzag64,8,opt,name=interval_pulses,json=intervalPulses,proto3,oneof" json:"interval_pulses,omitempty"`
 	unknownFields  protoimpl.UnknownFields
 	sizeCache      protoimpl.SizeCache

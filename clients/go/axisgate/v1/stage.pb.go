@@ -752,8 +752,9 @@ type Segment struct {
 	// If true, the distances are displacements from the end of the previous segment, not positions in the frame.
 	Relative bool `protobuf:"varint,3,opt,name=relative,proto3" json:"relative,omitempty"`
 	// Speed of the segment. For a line or an arc: the speed along the path, constant from its first to its last pulse,
-	// set as the S of the axis with the lowest number (manual 2.4, 83)). For a single axis: F. Unset: the present speed
-	// profile of the axis.
+	// set as the S of the axis with the lowest number (manual 2.4, 83)). For a single axis: F. Unset: for a line or an
+	// arc the present S of the axis with the lowest number, which is often slow; for a single axis its present speed
+	// profile.
 	Speed *Speed `protobuf:"bytes,4,opt,name=speed,proto3" json:"speed,omitempty"`
 	// R: whole milliseconds, 1 ms to 1 s. Unset: the present R of the axis.
 	AccelerationTime *durationpb.Duration `protobuf:"bytes,5,opt,name=acceleration_time,json=accelerationTime,proto3" json:"acceleration_time,omitempty"`

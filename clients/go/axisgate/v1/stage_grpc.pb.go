@@ -139,11 +139,11 @@ type StageServiceClient interface {
 	// axes are dropped. Several devices are stopped at the same time; a mill receives an abort. Answers when all axes are
 	// stationary, or when StopRequest.max_wait or the daemon's time limit has passed. Needs no lease.
 	//
-	// A stop by a caller other than the holder latches the axes: the holder must call ControlService.Rearm before the
-	// next motion. A stop by the program that moves the axes does not latch them. It is the same program if the stop has
-	// the token of the lease, comes over the same connection, or has the same `axisgate-session` in its metadata: a
-	// random value of 8 to 64 letters, digits and hyphens that a program creates once and sends over all of its
-	// connections.
+	// A stop by another program latches the axes for the program that holds their lease, and for the one whose motion it
+	// ended: that program must call ControlService.Rearm before its next motion. A stop by the program itself latches
+	// nothing. It is the same program if the stop has the token of the lease, comes over the same connection, or has the
+	// same `axisgate-session` in its metadata: a random value of 8 to 64 letters, digits and hyphens that a program
+	// creates once and sends over all of its connections.
 	//
 	// The answer reports only what was seen. Problems of a device are in its part of the answer. Stop is not a safety
 	// function: the wired emergency stop remains the user's responsibility.
@@ -470,11 +470,11 @@ type StageServiceServer interface {
 	// axes are dropped. Several devices are stopped at the same time; a mill receives an abort. Answers when all axes are
 	// stationary, or when StopRequest.max_wait or the daemon's time limit has passed. Needs no lease.
 	//
-	// A stop by a caller other than the holder latches the axes: the holder must call ControlService.Rearm before the
-	// next motion. A stop by the program that moves the axes does not latch them. It is the same program if the stop has
-	// the token of the lease, comes over the same connection, or has the same `axisgate-session` in its metadata: a
-	// random value of 8 to 64 letters, digits and hyphens that a program creates once and sends over all of its
-	// connections.
+	// A stop by another program latches the axes for the program that holds their lease, and for the one whose motion it
+	// ended: that program must call ControlService.Rearm before its next motion. A stop by the program itself latches
+	// nothing. It is the same program if the stop has the token of the lease, comes over the same connection, or has the
+	// same `axisgate-session` in its metadata: a random value of 8 to 64 letters, digits and hyphens that a program
+	// creates once and sends over all of its connections.
 	//
 	// The answer reports only what was seen. Problems of a device are in its part of the answer. Stop is not a safety
 	// function: the wired emergency stop remains the user's responsibility.
