@@ -9,11 +9,11 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import socket
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -69,10 +69,14 @@ STARTS = re.compile(r"(?:G|H|J|HRT|Z|ZRT):")  # lines that start motion (manual 
 
 
 class World:
-    """One for each run of the scenario over one transport; end() ends everything that it has begun."""
+    """One for each run of the scenario over one transport; end() ends everything that it has begun.
 
-    def __init__(self, transport):
+    `through` returns a proxy in front of a daemon's socket, for the transport "unix". None: there is no proxy.
+    """
+
+    def __init__(self, transport, through=None):
         self._transport = transport
+        self._through = through
         with contextlib.ExitStack() as begun:
             self._folder = begun.enter_context(tempfile.TemporaryDirectory(prefix="axisgate-conform-"))
             self._begin(begun)
@@ -92,6 +96,9 @@ class World:
             self._config = self._config.replace(name, str(value))
         self.daemon = Daemon(self._folder, self._config)
         begun.callback(lambda: self.daemon.stop())
+        self._front = self.daemon.socket
+        if self._through is not None:
+            self._front = begun.enter_context(self._through(self.daemon.socket)).socket
         self._relay = Relay(*self._ends())
         begun.callback(self._relay.end)
 
@@ -100,7 +107,7 @@ class World:
 
     def _ends(self):
         if self._transport == "unix":
-            return ("unix", self._path("relay.sock")), ("unix", self.daemon.socket)
+            return ("unix", self._path("relay.sock")), ("unix", self._front)
         if self._transport == "loopback":
             return ("tcp", 0), ("tcp", int(self.daemon.address().rsplit(":", 1)[1]))
         return ("tcp", 0), ("tcp", int(re.findall(r"gRPC with TLS on \S+:(\d+)", self.daemon.log())[-1]))
@@ -159,6 +166,15 @@ class World:
 
     def kill_and_start(self):
         self.daemon.kill()
+        self._start_again()
+
+    def forget_and_start(self):
+        """Ends the daemon, deletes its journal, and starts it again. Its tokens are deleted, too."""
+        self.daemon.kill()
+        shutil.rmtree(self._path("state"))
+        self._start_again()
+
+    def _start_again(self):
         self.daemon.stop()
         self.daemon = Daemon(self._folder, self._config)
 
@@ -206,27 +222,6 @@ class World:
 
     def end(self):
         self._begun.close()
-
-
-def meanwhile(act):
-    """Does `act` in another thread. Returns a function that waits for its end, and raises what it raised."""
-    raised = []
-
-    def run():
-        try:
-            act()
-        except BaseException as error:  # noqa: B902 - it is raised again below
-            raised.append(error)
-
-    thread = threading.Thread(target=run)
-    thread.start()
-
-    def end():
-        thread.join()
-        if raised:
-            raise raised[0]
-
-    return end
 
 
 def _free_ports():
