@@ -2,6 +2,7 @@ package axisgate
 
 import (
 	"context"
+	"fmt"
 	"math"
 	"time"
 
@@ -117,7 +118,26 @@ func act[A any](ctx context.Context, c *connection, token []byte, patience time.
 	call := newContext(memory, token, now.Add(ahead+patience))
 	r := &repeat{until: now.Add(patience), target: c.target.address, answer: c.half, acts: true,
 		remembered: memory != ""}
-	return send(ctx, c, c.channel, r, with(call))
+	answer, err := send(ctx, c, c.channel, r, with(call))
+	if err == nil {
+		err = checkOwn(answer, call.RequestId)
+	}
+	return answer, err
+}
+
+// checkOwn returns an OutcomeUnknown if the motion of the answer is that of another request.
+func checkOwn(answer any, requestID string) error {
+	var motion *axisgatev1.Motion
+	switch answer := answer.(type) {
+	case *axisgatev1.Motion:
+		motion = answer
+	case interface{ GetMotion() *axisgatev1.Motion }:
+		motion = answer.GetMotion()
+	}
+	if motion == nil || motion.RequestId == requestID {
+		return nil
+	}
+	return lookFirst(fmt.Sprintf("the daemon answered with %s, which another request started", motion.Name), "", nil)
 }
 
 // stop sends a stop over its own channel. The end of ctx does not keep the stop from being sent.

@@ -18,7 +18,7 @@ import { DeviceService, ListDevicesRequestSchema, type ListDevicesResponse } fro
 import type { Motion } from "./gen/axisgate/v1/motion_pb.js";
 import { StageService } from "./gen/axisgate/v1/stage_pb.js";
 import type { Logger } from "./log.js";
-import { Failure, undeliveredStop } from "./outcomes.js";
+import { Failure, own, undeliveredStop } from "./outcomes.js";
 import { Repeat } from "./repeat.js";
 import { clockAhead, newContext } from "./requests.js";
 import { isOver } from "./results.js";
@@ -113,7 +113,7 @@ export class Connection {
     const context = newContext({ memory, leaseToken: options.leaseToken, clockAheadMs, patienceMs });
     const repeat = this.repeat(patienceMs, true, memory !== "");
     options.started?.(context.requestId);
-    return this.send(repeat, attemptWith(context), this.with(options.signal));
+    return own(await this.send(repeat, attemptWith(context), this.with(options.signal)), context.requestId);
   }
 
   /** Sends a stop over its own connection, and returns the answer. */

@@ -1,4 +1,4 @@
-import { fromBinary } from "@bufbuild/protobuf";
+import { fromBinary, isMessage } from "@bufbuild/protobuf";
 import { anyUnpack } from "@bufbuild/protobuf/wkt";
 import { type ServiceError, status } from "@grpc/grpc-js";
 
@@ -18,6 +18,7 @@ import {
   Unavailable,
 } from "./errors.js";
 import { type Problem, ProblemSchema, Reason } from "./gen/axisgate/v1/common_pb.js";
+import { type Motion, MotionSchema } from "./gen/axisgate/v1/motion_pb.js";
 import { StatusSchema } from "./gen/status_pb.js";
 import { withMethods } from "./hints.js";
 import { nameOf } from "./names.js";
@@ -158,6 +159,17 @@ export function undeliveredStop(error: Unavailable): OutcomeUnknown {
     `the stop was not delivered: ${error.message}`,
     "press the emergency stop at the device",
     { code: error.code },
+  );
+}
+
+/** Returns the answer to the request with this id. Throws OutcomeUnknown if its motion is that of another request. */
+export function own<T>(answer: T, requestId: string): T {
+  const motion = isMessage(answer, MotionSchema) ? answer : (answer as { motion?: Motion }).motion;
+  if (motion === undefined || motion.requestId === requestId) return answer;
+  throw new OutcomeUnknown(
+    "OUTCOME_UNKNOWN",
+    `the daemon answered with ${motion.name}, which another request started`,
+    "look at the stage before you repeat the request",
   );
 }
 

@@ -12,7 +12,7 @@ import grpc
 from axisgate import _version
 from axisgate._following import Following
 from axisgate._methods import LIST_DEVICES, WAIT_MOTION, Method
-from axisgate._outcomes import Failure, failure_of, undelivered_stop
+from axisgate._outcomes import Failure, failure_of, own, undelivered_stop
 from axisgate._repeat import Repeat, for_action
 from axisgate._target import OPTIONS, Target
 from axisgate.errors import Unavailable
@@ -77,7 +77,7 @@ class Connection:
                                      time.monotonic())
         if started is not None:
             started(context.request_id)
-        return self._send(repeat, attempt_with(context), self._channel)
+        return own(self._send(repeat, attempt_with(context), self._channel), context.request_id)
 
     def stop(self, method: Method, request: Any) -> Any:
         """Sends a stop over its own connection, and returns the answer."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, FrozenSet, Optional, Type
+from typing import Any, Dict, FrozenSet, Optional, Type, TypeVar
 
 import grpc
 from google.protobuf.message import DecodeError
@@ -14,6 +14,7 @@ from axisgate.errors import (AxisgateError, LeaseHeld, LeaseLost, MotionFailed, 
                              OutsideTravel, Refused, Stopped, StoppedBy, Unavailable)
 from axisgate.v1 import common_pb2
 
+_T = TypeVar("_T")
 _DETAILS = "grpc-status-details-bin"
 
 # Start of gRPC's text for a call that never had a connection. Texts that differ only make an outcome unknown.
@@ -152,3 +153,12 @@ def error_of_problem(problem: common_pb2.Problem, code: str = "",
     hint = with_methods(problem.hint, "" if axis is None else str(axis))
     chosen = _CLASSES.get(reason, Refused) if kind is None else kind
     return chosen(reason, problem.message, hint, axis=axis, sent=problem.sent, wire_reply=problem.wire_reply, code=code)
+
+
+def own(answer: _T, request_id: str) -> _T:
+    """Returns the answer to the request with this id. Raises OutcomeUnknown if its motion is that of another request."""
+    motion: Any = getattr(answer, "motion", answer)
+    if getattr(motion, "name", "") and getattr(motion, "request_id", request_id) != request_id:
+        raise OutcomeUnknown("OUTCOME_UNKNOWN", f"the daemon answered with {motion.name}, which another request started",
+                             "look at the stage before you repeat the request")
+    return answer

@@ -14,7 +14,7 @@ import grpc.aio
 from axisgate import _version
 from axisgate._following import Following
 from axisgate._methods import LIST_DEVICES, WAIT_MOTION, Method
-from axisgate._outcomes import Failure, failure_of, undelivered_stop
+from axisgate._outcomes import Failure, failure_of, own, undelivered_stop
 from axisgate._repeat import Repeat, for_action
 from axisgate._target import OPTIONS, Target
 from axisgate.aio._tasks import Tasks, is_being_cancelled
@@ -94,7 +94,7 @@ class Connection:
                                      time.monotonic())
         if started is not None:
             started(context.request_id)
-        return await self._send(repeat, attempt_with(context), self._channel)
+        return own(await self._send(repeat, attempt_with(context), self._channel), context.request_id)
 
     async def stop(self, method: Method, request: Any) -> Any:
         """Sends a stop over its own connection, and returns the answer."""
