@@ -1,0 +1,20 @@
+// Moves one axis, and says what happened.
+#include <axisgate/axisgate.h>
+
+#include <iostream>
+
+using namespace axisgate::literals;
+
+int main() {
+  try {
+    axisgate::Stage stage;
+    stage.home_if_needed({"x"});
+    std::cout << "moved: " << stage["x"].move_to(1.5_mm) << '\n';
+  } catch (const axisgate::OutcomeUnknown& error) {
+    std::cout << "look at the stage: " << error.message() << '\n';
+    return 1;
+  } catch (const axisgate::Error& error) {
+    std::cout << error.reason() << ": " << error.message() << " (" << error.hint() << ")\n";
+    return 1;
+  }
+}
