@@ -1,22 +1,20 @@
 #include "clients/axisctl/connection.h"
 
 #include <fmt/format.h>
-#include <google/rpc/status.pb.h>
 
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <random>
 #include <string_view>
 #include <thread>
 #include <utility>
 
-#include "clients/axisctl/bearer.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
+#include "clients/cpp/src/channel.h"
+#include "clients/cpp/src/failure.h"
+#include "clients/cpp/src/token.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -24,30 +22,14 @@ namespace {
 // Time within which an ending daemon closes its connections after it has refused a request.
 constexpr std::chrono::milliseconds kEndOfDaemon{500};
 
-std::string content(const std::string& path) {
-  if (path.empty()) return "";
-  std::ifstream file(path);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw usage(fmt::format("{} cannot be read", path), "--ca, --certificate and --key name PEM files");
-  return text;
-}
-
-std::shared_ptr<grpc::ChannelCredentials> credentials(const Target& target) {
-  if (!target.tls) return grpc::InsecureChannelCredentials();
-  return grpc::SslCredentials({content(target.ca), content(target.key), content(target.certificate)});
-}
-
-std::shared_ptr<grpc::Channel> open_channel(const Target& target) {
-  grpc::ChannelArguments arguments;
-  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  // By default gRPC would wait up to two minutes before it tries to reach a restarted daemon.
-  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 250);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5000);
-  // Despite its name, this is the time limit of one connection attempt: a flooded daemon accepts a stop after a delay.
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
-  const char* const token = std::getenv(kTokenVariable);
-  return grpc::experimental::CreateCustomChannelWithInterceptors(target.address, credentials(target), arguments,
-                                                                 with_bearer(token == nullptr ? "" : token));
+// Opens a channel. Throws Failure if the target cannot be used.
+std::shared_ptr<grpc::Channel> channel_to(const client::Target& target) {
+  try {
+    client::check(target);
+    return client::open_channel(target);
+  } catch (const InvalidArgument& error) {
+    throw usage(error.what(), "--ca, --certificate and --key name PEM files");
+  }
 }
 
 Failure without_details(const grpc::Status& status, const std::string& target) {
@@ -74,26 +56,21 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
   }
 }
 
-// Decodes the output of lease_text(); nullopt if `text` is anything else.
+// Decodes the output of client::token_text(); nullopt if `text` is anything else.
 std::optional<std::string> token_in(std::string_view text) {
-  constexpr std::size_t kTextBytes = 48;
-  if (text.size() != kTextBytes) return std::nullopt;
-  std::string token;
-  for (std::size_t at = 0; at < text.size(); at += 2) {
-    unsigned char byte = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + at + 2, byte, 16);
-    if (error != std::errc() || end != text.data() + at + 2) return std::nullopt;
-    token += static_cast<char>(byte);
+  try {
+    return client::token_bytes(text);
+  } catch (const InvalidArgument&) {
+    return std::nullopt;
   }
-  return token;
 }
 
 }  // namespace
 
-Connection::Connection(const Target& target, std::string request_id)
+Connection::Connection(const client::Target& target, std::string request_id)
     : target_(target.address),
       request_id_(std::move(request_id)),
-      channel_(open_channel(target)),
+      channel_(channel_to(target)),
       devices(v1::DeviceService::NewStub(channel_)),
       stage(v1::StageService::NewStub(channel_)),
       events(v1::EventService::NewStub(channel_)),
@@ -132,27 +109,13 @@ void Connection::check(const grpc::Status& status) const {
   throw to_failure(problem);
 }
 
-v1::Problem problem_of(const grpc::Status& status) {
-  google::rpc::Status details;
-  v1::Problem problem;
-  if (!details.ParseFromString(status.error_details())) return problem;
-  for (const google::protobuf::Any& detail : details.details()) {
-    if (detail.UnpackTo(&problem)) return problem;
-  }
-  return v1::Problem();
-}
-
-std::string lease_text(std::string_view token) {
-  std::string text;
-  for (const char byte : token) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-  return text;
-}
+v1::Problem problem_of(const grpc::Status& status) { return client::Failure(status).problem.value_or(v1::Problem()); }
 
 v1::CallContext new_stop_context() {
   std::random_device random;
   v1::CallContext context;
   context.set_request_id(fmt::format("axisctl-{:08x}{:08x}", random(), random()));
-  const char* const lease = std::getenv(kLeaseVariable);
+  const char* const lease = std::getenv(client::kLeaseVariable);
   if (const auto token = token_in(lease ? lease : "")) context.set_lease_token(*token);
   return context;
 }
@@ -160,9 +123,9 @@ v1::CallContext new_stop_context() {
 v1::CallContext Connection::new_call_context() const {
   v1::CallContext context = new_stop_context();
   if (!request_id_.empty()) context.set_request_id(request_id_);
-  const char* const lease = std::getenv(kLeaseVariable);
+  const char* const lease = std::getenv(client::kLeaseVariable);
   if (lease && context.lease_token().empty()) {
-    throw usage(fmt::format("{} is not the token of a lease", kLeaseVariable),
+    throw usage(fmt::format("{} is not the token of a lease", client::kLeaseVariable),
                 "unset it, or start again with `axisctl lease run`");
   }
   return context;

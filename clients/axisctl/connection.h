@@ -37,10 +37,10 @@ inline constexpr std::chrono::seconds kStopLimit{30};
 
 class Connection {
  public:
-  // Identifies the caller by the token in AXISGATE_TOKEN, if it is set. Shares no network connection with other
-  // Connections of this process, so that a stop never waits for a stream. `request_id` is used for every mutation;
-  // empty: each mutation gets a new id. Throws Failure if a certificate cannot be read.
-  explicit Connection(const Target& target, std::string request_id = {});
+  // Shares no network connection with other Connections of this process, so that a stop never waits for a stream.
+  // `request_id` is used for every mutation; empty: each mutation gets a new id. Throws Failure if a certificate cannot
+  // be read, or a token would be sent unencrypted to another machine.
+  explicit Connection(const client::Target& target, std::string request_id = {});
 
   // Returns a context with the request id and the token in AXISGATE_LEASE. Throws Failure if that value is not a token.
   v1::CallContext new_call_context() const;
@@ -125,12 +125,6 @@ class Connection {
 
 // Returns the problem that the daemon sent with an error; its reason is REASON_UNSPECIFIED if the daemon sent none.
 v1::Problem problem_of(const grpc::Status& status);
-
-// Environment variable with the lease token, for a command that `lease run` started.
-inline constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
-
-// Returns the token in hexadecimal, as the variable contains it.
-std::string lease_text(std::string_view token);
 
 // Returns a context with a new request id and the token in AXISGATE_LEASE. An invalid token is left out, so that it
 // cannot prevent a stop.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "clients/axisctl/hints.h"
+#include "clients/cpp/src/failure.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -36,15 +37,8 @@ Failure usage(std::string message, std::string hint) {
   return {kUsage, "INVALID_REQUEST", std::move(message), std::move(hint)};
 }
 
-std::string short_name(v1::Reason reason) {
-  constexpr std::string_view prefix = "REASON_";
-  const std::string& name = v1::Reason_Name(reason);
-  // A newer daemon may send reasons that have no name here.
-  return name.empty() ? "REASON " + std::to_string(reason) : name.substr(prefix.size());
-}
-
 Failure to_failure(const v1::Problem& problem) {
-  return {exit_code(problem.reason()), short_name(problem.reason()), problem.message(),
+  return {exit_code(problem.reason()), client::reason_name(problem.reason()), problem.message(),
           with_commands(problem.hint(), problem.axis())};
 }
 

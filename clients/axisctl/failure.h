@@ -27,9 +27,6 @@ struct Failure {
 
 Failure usage(std::string message, std::string hint);
 
-// Returns the reason without the prefix of the API: "OUTSIDE_TRAVEL".
-std::string short_name(v1::Reason reason);
-
 // Converts a problem; its reason determines the exit code.
 Failure to_failure(const v1::Problem& problem);
 

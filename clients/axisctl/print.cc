@@ -11,6 +11,7 @@
 
 #include "clients/axisctl/condition_text.h"
 #include "clients/axisctl/mill/mill_text.h"
+#include "clients/cpp/src/failure.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -30,7 +31,7 @@ std::string describe_motion(const v1::Motion& motion) {
   std::string text =
       fmt::format("motion {} ({}) {}", last_part(motion.name()), kind_name(motion.kind()), state_name(motion.state()));
   if (motion.has_problem()) {
-    text += fmt::format(": {}: {}", short_name(motion.problem().reason()), motion.problem().message());
+    text += fmt::format(": {}: {}", client::reason_name(motion.problem().reason()), motion.problem().message());
   }
   return text;
 }

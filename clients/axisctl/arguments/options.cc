@@ -12,6 +12,7 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verb.h"
+#include "server/config/default_socket.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -69,7 +70,7 @@ void add_verb(CLI::App& app, Options& options, const Verb& verb) {
   if (verb.waits) add_wait(added, options);
 }
 
-void add_target(CLI::App& app, Target& target) {
+void add_target(CLI::App& app, client::Target& target) {
   app.add_option("--target", target.address,
                  "address of the daemon: path of a Unix socket, or HOST[:PORT] (default: the local daemon)")
       ->envname("AXISGATE_TARGET")
@@ -167,9 +168,10 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
     print_failure(usage("this command has no JSON output", "leave out --json"));
     return kUsage;
   }
-  Target& target = options.target;
+  client::Target& target = options.target;
   target.tls = target.tls || !target.ca.empty() || !target.certificate.empty();
-  target.address = address(target.address, target.tls);
+  target.address = client::address(target.address, target.tls);
+  target.token = environment("AXISGATE_TOKEN");
   options.device = resource(options.device);
   return options;
 }

@@ -7,18 +7,11 @@
 #include <variant>
 #include <vector>
 
+#include "clients/cpp/src/target.h"
+
 namespace axisgate::axisctl {
 
 struct Verb;
-
-// Address of the daemon, and how to connect to it.
-struct Target {
-  std::string address;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
-  bool tls = false;
-  std::string ca;  // PEM file with the authority of the daemon's certificate; empty: authorities of this machine
-  std::string certificate;  // PEM file with the caller's own certificate; empty: none
-  std::string key;
-};
 
 // Options of the verbs that check jobs for mills. Comments begin with the verb that uses the option.
 struct MillOptions {
@@ -57,7 +50,7 @@ struct JobOptions {
 
 // All options. Comments begin with the verbs that use the option.
 struct Options {
-  Target target;
+  client::Target target;
   std::string device;  // "devices/stage"; empty: the only device
   bool json = false;
   std::string request_id;      // request id of mutations; empty: a new id for each

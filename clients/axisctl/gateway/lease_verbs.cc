@@ -13,6 +13,7 @@
 #include "clients/axisctl/held_lease.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
+#include "clients/cpp/src/token.h"
 
 namespace axisgate::axisctl {
 
@@ -22,7 +23,7 @@ int with_lease(const Session& session, int (*verb)(const Session&)) {
   for (const std::string& place : session.options.places) axes.push_back(place.substr(0, place.find('=')));
   // The command ends like one without --wait: after Ctrl-C its motion runs to its end.
   const HeldLease held(session, any_device(session), axes, v1::AT_LOSS_FINISH);
-  ::setenv(kLeaseVariable, lease_text(held.lease().token()).c_str(), 1);
+  ::setenv(client::kLeaseVariable, client::token_text(held.lease().token()).c_str(), 1);
   return verb(session);
 }
 
@@ -57,7 +58,7 @@ v1::AtLoss at_loss_named(const std::string& word) {
 
 int lease_run(const Session& session) {
   const HeldLease held(session, any_device(session), session.options.axes, at_loss_named(session.options.at_loss));
-  return run_child(session.options.lines, kLeaseVariable, lease_text(held.lease().token()));
+  return run_child(session.options.lines, client::kLeaseVariable, client::token_text(held.lease().token()));
 }
 
 int lease_list(const Session& session) {

@@ -13,6 +13,7 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
+#include "clients/cpp/src/failure.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -72,7 +73,7 @@ class Watcher {
   void tell_of_break(const v1::Problem& problem) const {
     Failure failure{kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost", "trying again"};
     if (problem.reason() != v1::REASON_UNSPECIFIED) {
-      failure.reason = short_name(problem.reason());
+      failure.reason = client::reason_name(problem.reason());
       failure.message = problem.message();
     }
     if (request_.has_from_revision())

@@ -8,6 +8,9 @@
 #include <mutex>
 #include <utility>
 
+#include "clients/cpp/src/channel.h"
+#include "clients/cpp/src/identity.h"
+
 namespace axisgate::client {
 namespace {
 
@@ -51,8 +54,7 @@ v1::ListDevicesResponse Connection::open() {
 }
 
 Connection::Action Connection::new_action(const std::string& lease_token, milliseconds patience) {
-  const v1::ListDevicesResponse listed =
-      ask(services.devices, &v1::DeviceService::Stub::ListDevices, v1::ListDevicesRequest());
+  const v1::ListDevicesResponse listed = list();
   patience += half_;
   const system_clock::time_point not_after =
       system_clock::now() + patience + (is_local(target_.address) ? system_clock::duration() : clock_ahead(listed));
@@ -74,7 +76,6 @@ void Connection::send(Services& over, Repeat& repeat, std::string_view name, con
   while (true) {
     const Clock::time_point now = Clock::now();
     grpc::ClientContext context;
-    identify(context);
     context.set_deadline(system_clock::now() + repeat.limit(now));
     const grpc::Status status = once(context);
     log(fmt::format("{} {} {:.1f} ms", name, status.ok() ? "OK" : status.error_message(),
@@ -102,7 +103,6 @@ v1::Motion Connection::follow(v1::Motion motion, Clock::time_point end, std::sto
         end == Clock::time_point::max() ? milliseconds::max() : duration_cast<milliseconds>(end - Clock::now());
     const v1::WaitMotionRequest question = following.question(left);
     grpc::ClientContext context;
-    identify(context);
     context.set_deadline(system_clock::now() + Following::limit(question));
     const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
     v1::WaitMotionResponse answer;

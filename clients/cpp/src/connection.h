@@ -28,6 +28,11 @@ class Connection {
   // Connects for stops, and lists the devices. Throws Unavailable at once if no daemon answers.
   v1::ListDevicesResponse open();
 
+  // Lists the devices.
+  v1::ListDevicesResponse list() {
+    return ask(services.devices, &v1::DeviceService::Stub::ListDevices, v1::ListDevicesRequest());
+  }
+
   // Returns the answer to a question, which is repeated for `patience` while no daemon answers.
   template <class Stub, class Request, class Response>
   Response ask(Stub& stub, Method<Stub, Request, Response> method, const Request& request, milliseconds patience) {
@@ -74,8 +79,6 @@ class Connection {
   using Once = std::function<grpc::Status(grpc::ClientContext&)>;
   void send(Services& over, Repeat& repeat, std::string_view name, const Once& once);
 
-  // Prepares the context of a call that lasts, or that the caller sends alone.
-  void identify(grpc::ClientContext& context) const { client::identify(target_, context); }
   void log(std::string_view line) const;
 
   const std::string& address() const { return target_.address; }

@@ -49,10 +49,7 @@ std::optional<std::variant<Event, Gap>> EventReader::next() {
       cursor_.set_run(response.event().run());
       return event_of(response.event());
     }
-    // Without a first event the place to resume is unknown.
-    const bool first = !cursor_.has_from_revision();
     if (!feed_.resume()) return std::nullopt;
-    if (first && !gap_) gap_ = Gap{};
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "clients/cpp/src/identity.h"
+
 namespace axisgate::client {
 namespace {
 
@@ -36,7 +38,6 @@ Executed execute(DeviceSession& session, const std::vector<std::string>& lines) 
   for (const std::string& line : lines) request.add_lines(line);
   *request.mutable_timeout() = TimeUtil::MillisecondsToDuration(kExecuteTime.count());
   grpc::ClientContext context;
-  session.connection().identify(context);
   context.set_deadline(std::chrono::system_clock::now() + kExecuteTime + kExecuteAnswer);
   const auto call = session.services().commands.Execute(&context, request);
   Executed executed;

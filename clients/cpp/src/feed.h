@@ -74,7 +74,6 @@ class Feed {
  private:
   void start() {
     auto context = std::make_unique<grpc::ClientContext>();
-    session_->connection().identify(*context);
     auto reader = begin_(*context);
     const std::lock_guard lock(mutex_);
     if (closed_) context->TryCancel();

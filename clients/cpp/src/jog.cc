@@ -17,10 +17,7 @@ constexpr milliseconds kRenewEvery{100};
 }  // namespace
 
 JogRunner::JogRunner(std::shared_ptr<DeviceSession> session, const v1::JogRequest& first)
-    : session_(std::move(session)), call_([this] {
-        session_->connection().identify(context_);
-        return session_->services().stage.Jog(&context_);
-      }()) {
+    : session_(std::move(session)), call_(session_->services().stage.Jog(&context_)) {
   sender_ = std::jthread([this, first, limit = Clock::now() + 2 * session_->connection().half()](
                              const std::stop_token& ended) { send(ended, first, limit); });
   v1::JogResponse response;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clients/cpp/src/lease_keeper.h"
+#include "clients/cpp/src/token.h"
 
 namespace axisgate {
 namespace client {

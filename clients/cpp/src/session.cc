@@ -4,20 +4,13 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "clients/cpp/src/motion_handle.h"
 #include "clients/cpp/src/outcomes.h"
+#include "clients/cpp/src/token.h"
 #include "server/config/default_socket.h"
 
 namespace axisgate::client {
-namespace {
-
-constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
-constexpr std::size_t kTokenBytes = 24;
-
-}  // namespace
-
 DeviceSession::DeviceSession(std::shared_ptr<Connection> connection, const v1::Device& device)
     : connection_(std::move(connection)), device_(device.name()), axes_(status_of(device).axes) {
   const std::string inherited = environment(kLeaseVariable);
@@ -69,26 +62,6 @@ MotionResult DeviceSession::wait_or_cancel(const Motion& motion, std::stop_token
     throw_look_first(fmt::format("{} was interrupted, but not cancelled: {}", motion.name(), error.message()));
   }
   throw Interrupted(motion.name() + " is cancelled");
-}
-
-std::string token_text(std::string_view token) {
-  std::string text;
-  for (const char byte : token) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
-  return text;
-}
-
-std::string token_bytes(std::string_view text) {
-  std::string token;
-  for (std::size_t at = 0; at + 2 <= text.size(); at += 2) {
-    unsigned char byte = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + at + 2, byte, 16);
-    if (error == std::errc() && end == text.data() + at + 2) token += static_cast<char>(byte);
-  }
-  if (token.size() != kTokenBytes || text.size() != 2 * kTokenBytes) {
-    throw InvalidArgument(
-        fmt::format("{} is not the token of a lease: unset it, or use `axisctl lease run`", kLeaseVariable));
-  }
-  return token;
 }
 
 }  // namespace axisgate::client

@@ -68,8 +68,4 @@ class DeviceSession : public std::enable_shared_from_this<DeviceSession> {
   std::vector<std::string> leases_;  // newest last; the first is that of the environment, which may be empty
 };
 
-// Returns the bytes of a token in hexadecimal, and the reverse. Throws InvalidArgument if the text is no token.
-std::string token_text(std::string_view token);
-std::string token_bytes(std::string_view text);
-
 }  // namespace axisgate::client

@@ -81,7 +81,13 @@ States Stage::watch(std::chrono::milliseconds interval) const {
   return States(std::make_unique<client::StateReader>(session_, interval));
 }
 
-Events Stage::events() const { return events_at(session_, {}); }
+Events Stage::events() const {
+  const v1::ListDevicesResponse listed = session_->connection().list();
+  v1::WatchRequest cursor;  // has a place from the beginning, to resume there if the connection breaks at once
+  cursor.set_from_revision(listed.next_revision());
+  cursor.set_run(listed.run());
+  return events_at(session_, std::move(cursor));
+}
 
 Events Stage::events_after(const Event& last) const {
   v1::WatchRequest cursor;

@@ -1,9 +1,6 @@
 // Address of a daemon, and the credentials of the caller.
 #pragma once
 
-#include <grpcpp/grpcpp.h>
-
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -25,21 +22,14 @@ struct Target {
 // port in the examples of [network].
 std::string address(std::string_view target, bool tls);
 
-// Returns the target of the options. An empty option comes from the environment. Throws InvalidArgument if certificate
-// and key do not come together, or a token would be sent unencrypted to another machine.
+// Throws InvalidArgument if certificate and key do not come together, or a token would be sent unencrypted to another
+// machine.
+void check(const Target& target);
+
+// Returns the target of the options, checked. An empty option comes from the environment. Throws InvalidArgument.
 Target to_target(const ConnectOptions& options);
 
 // Reports whether the daemon runs on this machine.
 bool is_local(std::string_view address);
-
-// Opens a channel, which shares no network connection with other channels. gRPC itself repeats nothing. Throws
-// InvalidArgument if a file cannot be read.
-std::shared_ptr<grpc::Channel> open_channel(const Target& target);
-
-// Identifies the caller, and the program: the daemon treats all connections of this process as one program.
-void identify(const Target& target, grpc::ClientContext& context);
-
-// Returns a random UUID.
-std::string new_uuid();
 
 }  // namespace axisgate::client

@@ -1,4 +1,4 @@
-// Amounts, addresses and hints.
+// Amounts, hints and errors.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "axisgate/axisgate.h"
 #include "clients/cpp/src/amounts.h"
 #include "clients/cpp/src/hints.h"
-#include "clients/cpp/src/target.h"
 
 namespace axisgate::client {
 namespace {
@@ -46,24 +45,6 @@ TEST(Amounts, HaveAnOpposite) {
   EXPECT_EQ((-mm("-1.5")).text(), "1.5 mm");
   EXPECT_EQ((-mm("+1.5")).text(), "-1.5 mm");
   EXPECT_EQ((-um(0.5)).per_second().text(), "-0.5 um/s");
-}
-
-TEST(Targets, HaveTheFormsOfAxisctl) {
-  EXPECT_EQ(address("/run/x", false), "unix:/run/x");
-  EXPECT_EQ(address("lab/x.sock", false), "unix:lab/x.sock");
-  EXPECT_EQ(address("lab", false), "lab:50203");
-  EXPECT_EQ(address("lab", true), "lab:50204");
-  EXPECT_EQ(address("lab:7", true), "lab:7");
-  EXPECT_EQ(address("::1", false), "[::1]:50203");
-  EXPECT_EQ(address("dns:///lab:1", false), "dns:///lab:1");
-}
-
-TEST(Targets, SendNoTokenUnencryptedToAnotherMachine) {
-  EXPECT_THROW(to_target({.target = "lab", .token = "secret"}), InvalidArgument);
-  EXPECT_THROW(to_target({.target = "127.0.0.1.example.org", .token = "secret"}), InvalidArgument);
-  EXPECT_EQ(to_target({.target = "127.0.0.1", .token = "secret"}).token, "secret");
-  EXPECT_EQ(to_target({.target = "lab", .token = "secret", .ca = "ca.pem"}).address, "lab:50204");
-  EXPECT_THROW(to_target({.certificate = "me.pem"}), InvalidArgument);
 }
 
 TEST(Hints, NameFunctionsOfThisPackage) {

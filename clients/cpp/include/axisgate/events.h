@@ -29,9 +29,7 @@ struct Event {
 
 // A Gap means that events were missed, because they are no longer kept.
 struct Gap {
-  // Revision of the event with which the series continues. nullopt: the connection broke before the first event was
-  // received, and the series continues with the next event.
-  std::optional<std::uint64_t> resume_revision;
+  std::uint64_t resume_revision = 0;  // of the event with which the series continues
 };
 
 // Events is a series of events, each once and in order, also over broken connections and restarts of the daemon. One

@@ -1,12 +1,13 @@
-// Tests of the conversion of --target to gRPC addresses.
-#include "clients/axisctl/arguments/addresses.h"
-
+// Tests of the addresses of daemons, and of the credentials for them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <string>
 
-namespace axisgate::axisctl {
+#include "axisgate/stage.h"
+#include "clients/cpp/src/target.h"
+
+namespace axisgate::client {
 namespace {
 
 struct Row {
@@ -54,5 +55,13 @@ TEST(Addresses, OfTheDefaultDaemon) {
   ASSERT_EQ(::unsetenv("AXISGATE_SOCKET"), 0);
 }
 
+TEST(Targets, SendNoTokenUnencryptedToAnotherMachine) {
+  EXPECT_THROW(to_target({.target = "lab", .token = "secret"}), InvalidArgument);
+  EXPECT_THROW(to_target({.target = "127.0.0.1.example.org", .token = "secret"}), InvalidArgument);
+  EXPECT_EQ(to_target({.target = "127.0.0.1", .token = "secret"}).token, "secret");
+  EXPECT_EQ(to_target({.target = "lab", .token = "secret", .ca = "ca.pem"}).address, "lab:50204");
+  EXPECT_THROW(to_target({.certificate = "me.pem"}), InvalidArgument);
+}
+
 }  // namespace
-}  // namespace axisgate::axisctl
+}  // namespace axisgate::client
