@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Proof that the API's files are as their tools want them: `buf lint` and `buf format`, and that the options of each file
-# carry the names of clients/names. Needs node and npm; buf's version is that of tests/buf.
+# Proof that the API's files are as their tools want them: `buf lint` and `buf format`, that they break no program of the
+# recorded baseline (`buf breaking`), and that the options of each file carry the names of clients/names. Needs node and
+# npm; buf's version is that of tests/buf.
 # usage: tests/buf.sh [--if-changed]     with --if-changed not if the same inputs have passed on this machine
 set -euo pipefail
 
@@ -8,6 +9,7 @@ name=buf
 # shellcheck source=tests/recorded-proof.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/recorded-proof.sh"
 built="$repository/build/buf"
+baseline=tests/buf/baseline.binpb  # buf build --exclude-source-info
 
 input_paths() {
   git -C "$repository" ls-tree -r --name-only HEAD -- proto clients/names tests/buf tests/buf.sh tests/recorded-proof.sh
@@ -33,12 +35,24 @@ check_names() {
   done
 }
 
+# A commit that changes both could hide a broken API behind a new baseline.
+check_baseline() {
+  local commit
+  while read -r commit; do
+    if git -C "$repository" show --name-only --format= "$commit" | grep -q '^proto/axisgate/'; then
+      fail "commit $commit changes the API and its baseline"
+    fi
+  done < <(git -C "$repository" log --format=%h -- "$baseline")
+}
+
 prove() {
   local buf="$built/node_modules/.bin/buf"
   timed "npm ci" install_buf
   check_names
+  check_baseline
   cd "$repository/proto"
   "$buf" lint || fail "buf lint"
+  "$buf" breaking --against "$repository/$baseline" || fail "buf breaking: programs of the baseline would not work"
   "$buf" format --diff --exit-code || fail "buf format: run \`buf format -w\` in proto/"
 }
 
