@@ -46,9 +46,17 @@ std::string StopReport::text() const {
 }
 
 const AxisState& Status::axis(std::string_view name) const {
-  const auto found = std::ranges::find(axes, name, &AxisState::name);
+  const auto found = std::ranges::find(known_axes(), name, &AxisState::name);
   if (found == axes.end()) throw InvalidArgument(fmt::format("{} has no axis {}", device, name));
   return *found;
+}
+
+const std::vector<AxisState>& Status::known_axes() const {
+  if (!axes.empty()) return axes;
+  throw Unavailable({.reason = "LINK_DOWN",
+                     .message = fmt::format("the axes of {} are unknown: {}", device,
+                                            link_problem.empty() ? "the controller is read" : link_problem),
+                     .hint = "wait until the controller answers"});
 }
 
 std::string Status::text() const {

@@ -17,6 +17,16 @@ DeviceSession::DeviceSession(std::shared_ptr<Connection> connection, const v1::D
   leases_.push_back(inherited.empty() ? "" : token_bytes(inherited));
 }
 
+std::vector<AxisState> DeviceSession::axes() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!axes_.empty()) return axes_;
+  }
+  const Status now = status_of(read(std::nullopt));
+  const std::lock_guard lock(mutex_);
+  return axes_ = now.known_axes();
+}
+
 std::string DeviceSession::token() const {
   const std::lock_guard lock(mutex_);
   return leases_.back();

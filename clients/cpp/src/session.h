@@ -22,8 +22,8 @@ class DeviceSession : public std::enable_shared_from_this<DeviceSession> {
   Connection& connection() const { return *connection_; }
   Services& services() const { return connection_->services; }
   const std::string& device() const { return device_; }  // "devices/stage"
-  // Returns the axes as they were when the session was opened.
-  const std::vector<AxisState>& axes() const { return axes_; }
+  // Returns the axes as they were when they were first known. Throws Unavailable while they are unknown.
+  std::vector<AxisState> axes();
 
   // Returns the token of the newest lease, or that of `axisctl lease run`. Empty: no lease.
   std::string token() const;
@@ -63,8 +63,8 @@ class DeviceSession : public std::enable_shared_from_this<DeviceSession> {
 
   const std::shared_ptr<Connection> connection_;
   const std::string device_;
-  const std::vector<AxisState> axes_;
   mutable std::mutex mutex_;
+  std::vector<AxisState> axes_;      // empty: unknown
   std::vector<std::string> leases_;  // newest last; the first is that of the environment, which may be empty
 };
 

@@ -143,7 +143,8 @@ MotionResult Stage::home(const std::vector<std::string>& axes, std::stop_token s
 
 MotionResult Stage::home_if_needed(const std::vector<std::string>& axes, std::stop_token stop) const {
   std::vector<std::string> needed;
-  for (const AxisState& state : status().axes) {
+  const Status now = status();
+  for (const AxisState& state : now.known_axes()) {
     const bool chosen = axes.empty() || std::ranges::any_of(axes, [&](const std::string& axis) {
                           return axis == state.name || axis == std::to_string(state.number);
                         });

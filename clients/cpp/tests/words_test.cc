@@ -58,5 +58,13 @@ TEST(Errors, SayTheReasonTheMessageAndTheHint) {
                "NOT_HOMED: home it. (home())");
 }
 
+TEST(Status, HasNoAxesBeforeTheControllerAnswers) {
+  Status status;
+  EXPECT_THROW(status.axis("x"), Unavailable);
+  status.axes.emplace_back().name = "y";
+  EXPECT_THROW(status.axis("x"), InvalidArgument);
+  EXPECT_EQ(status.axis("y").name, "y");
+}
+
 }  // namespace
 }  // namespace axisgate::client

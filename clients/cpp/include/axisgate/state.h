@@ -28,10 +28,13 @@ struct AXISGATE_PUBLIC Status {
   std::string link;             // "UP" if the controller answers
   std::string link_problem;     // why not; otherwise empty
   std::string mode;             // "HOST"
-  std::vector<AxisState> axes;  // in the order of their numbers
+  std::vector<AxisState> axes;  // in the order of their numbers; empty while the controller has not answered yet
 
-  // Returns the state of an axis by its name. Throws InvalidArgument if there is none.
+  // Returns the state of an axis by its name. Throws Unavailable while the axes are unknown, and InvalidArgument if
+  // there is no such axis.
   const AxisState& axis(std::string_view name) const;
+  // Returns the states of all axes. Throws Unavailable while the axes are unknown.
+  const std::vector<AxisState>& known_axes() const;
   std::string text() const;
 };
 
