@@ -60,6 +60,20 @@ class Moves(AioTest):
             self.assertEqual((await stage.home("x", if_needed=True)).positions, {})
         self.run_with_stage(check)
 
+    def test_starts_homing(self):
+        async def check(stage):
+            self.assertEqual(str(await (await stage.start_home("x")).wait()), "x 0 mm")
+        self.run_with_stage(check)
+
+    def test_axes_are_unknown_after_a_restart(self):
+        async def check(stage):
+            self.daemon.restart_without_controller()
+            for unknown in (stage.home("x", if_needed=True), stage.home(if_needed=True), stage["x"].position):
+                with self.assertRaises(Unavailable) as caught:
+                    await unknown
+                self.assertEqual(caught.exception.reason, "LINK_DOWN")
+        self.run_with_stage(check)
+
     def test_path_and_scan(self):
         async def check(stage):
             points = ((0.1 * i * mm, 0.05 * i * mm) for i in range(1, 11))

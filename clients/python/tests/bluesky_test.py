@@ -5,8 +5,9 @@ import time
 import unittest
 from unittest import mock
 
-from axisgate import LeaseHeld, OutcomeUnknown, OutsideTravel, Stopped, StoppedBy, mm
+from axisgate import LeaseHeld, OutcomeUnknown, OutsideTravel, Stopped, StoppedBy, Unavailable, mm
 from axisgate.bluesky import BlueskyAxis, BlueskyLine, Line, Status
+from axisgate.state import status_of
 from daemon import DaemonTest, wait_until
 
 try:
@@ -106,6 +107,23 @@ class WithoutBluesky(BlueskyTest):
         self.x.subscribe(seen.append)
         self.x.set(0.5).wait(20)
         wait_until(lambda: seen and seen[-1]["x"]["value"] == 0.5, "the last reading")
+        self.x.clear_sub(seen.append)
+
+    def test_subscription_survives_a_restart(self):
+        seen, statuses = [], []
+
+        def noted(device):
+            statuses.append(status_of(device))
+            return statuses[-1]
+        with mock.patch("axisgate.samples.status_of", noted):
+            self.x.subscribe(seen.append)
+            self.daemon.restart_without_controller()
+            self.assertRaises(Unavailable, self.x.describe)
+            self.assertRaises(Unavailable, self.x.read)
+            wait_until(lambda: any(not status.axes for status in statuses), "a state without axes")
+            before = len(seen)
+            self.daemon.let_controller_answer()
+            wait_until(lambda: len(seen) > before, "a reading after the restart")
         self.x.clear_sub(seen.append)
 
     def test_line(self):

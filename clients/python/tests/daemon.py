@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import select
+import signal
 import socket
 import subprocess
 import tempfile
@@ -70,13 +71,13 @@ class Daemon:
             self.end()
             raise
 
-    def start(self):
-        """Starts the daemon, and waits until its controller answers."""
+    def start(self, ready="stage: link is UP"):
+        """Starts the daemon, and waits until its log has the text `ready`: its controller answers."""
         self._log = open(os.path.join(self._folder, "log"), "w+", encoding="utf-8")
         environment = dict(os.environ, STATE_DIRECTORY=os.path.join(self._folder, "state"))
         self._process = subprocess.Popen([BIN / "axisgated", "--config", self._config], stdout=self._log,
                                          stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, env=environment)
-        wait_until(lambda: self._process.poll() is not None or "stage: link is UP" in self.log(), "a ready daemon")
+        wait_until(lambda: self._process.poll() is not None or ready in self.log(), "a ready daemon")
         if self._process.poll() is not None:
             raise AssertionError(f"the daemon ended: {self.log()}")
 
@@ -97,6 +98,15 @@ class Daemon:
         if not answer.startswith("ok"):
             raise AssertionError(answer)
         return answer.strip()
+
+    def restart_without_controller(self):
+        """Restarts the daemon, whose controller then does not answer until let_controller_answer()."""
+        self._simulator.send_signal(signal.SIGSTOP)
+        self.kill()
+        self.start(ready="gRPC on")
+
+    def let_controller_answer(self):
+        self._simulator.send_signal(signal.SIGCONT)
 
     def kill(self):
         self._process.kill()

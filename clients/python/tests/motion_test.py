@@ -56,6 +56,10 @@ class Moves(DaemonTest):
         self.assertEqual(self.stage.home("x", if_needed=True).positions, {})
         self.assertEqual(list(self.stage.home(if_needed=True).positions), ["y", "3"])
 
+    def test_starts_homing(self):
+        motion = self.stage.start_home("x", "y")
+        self.assertEqual(str(motion.wait()), "x 0 mm, y 0 mm")
+
     def test_scan_counts_trigger_pulses(self):
         scan = self.stage.scan("x", 0 * mm, 1 * mm, every=100 * um, speed=0.2 * mm / s).wait().scan
         self.assertEqual(scan.expected_in_range, 11)
@@ -222,6 +226,15 @@ class Killed(DaemonTest):
             self.assertEqual(str(stage["x"].move_to(1 * mm)), "x 1 mm")
         finally:
             wait_until(lambda: "is UP" in self.daemon.log(), "the daemon")
+
+    def test_axes_are_unknown_after_a_restart(self):
+        stage = self.open()
+        self.daemon.restart_without_controller()
+        for unknown in (lambda: stage.home("x", if_needed=True), lambda: stage.home(if_needed=True),
+                        lambda: stage["x"].position):
+            with self.assertRaises(Unavailable) as caught:
+                unknown()
+            self.assertEqual(caught.exception.reason, "LINK_DOWN")
 
 
 if __name__ == "__main__":

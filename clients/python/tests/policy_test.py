@@ -13,6 +13,7 @@ from axisgate._following import LOST_LIMIT_S, Following
 from axisgate._hints import with_methods
 from axisgate._keeping import Keeping
 from axisgate._outcomes import Failure, error_of, failure_of
+from axisgate._record import ProgressMeter
 from axisgate._repeat import Repeat, for_action
 from axisgate._target import resolve
 from axisgate.results import outcome_of
@@ -218,10 +219,21 @@ class Errors(unittest.TestCase):
                 self.assertTrue(issubclass(kind, axisgate.AxisgateError))
 
 
+class ProgressTest(unittest.TestCase):
+    def test_unknown_positions(self):
+        motion = motion_pb2.Motion(axes=[1], results=[motion_pb2.AxisResult(axis=1, target_pulses=100)])
+        meter = ProgressMeter()
+
+        def fraction(pulses):
+            return meter.take(motion, device_pb2.Device(name="devices/stage", axes=[
+                device_pb2.Axis(number=1, position_pulses=pulses)])).fraction
+        self.assertEqual([fraction(pulses) for pulses in (None, 20, 60, None)], [None, 0, 0.5, None])
+
+
 class Cursors(unittest.TestCase):
     def test_resumes_after_the_last_event(self):
-        cursor = Cursor("devices/stage", None, "")
-        self.assertFalse(cursor.request().HasField("from_revision"))
+        cursor = Cursor("devices/stage", 5, "")
+        self.assertEqual((cursor.request().from_revision, cursor.request().run), (5, ""))
         cursor.take(event_pb2.Event(revision=7, run="a"))
         self.assertEqual((cursor.request().from_revision, cursor.request().run), (8, "a"))
 

@@ -155,6 +155,15 @@ class Watching(SharingTest):
         with self.stage.events(since=seen[0]) as again:
             self.assertGreater(next(again).revision, seen[0].revision)
 
+    def test_events_resume_before_the_first_event(self):
+        with self.stage.events() as events:
+            self.daemon.kill()
+            threading.Timer(1.5, self.daemon.start).start()
+            try:
+                self.assertEqual(next(events).kind, "daemon_started")
+            finally:
+                wait_until(lambda: "is UP" in self.daemon.log(), "the daemon")
+
     def _next_end(self, events):
         return next(event for event in events if event.kind == "motion" and event.fact.HasField("end_time"))
 

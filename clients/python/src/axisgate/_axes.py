@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Collection, Dict, Iterable, List, Mapping, Sequence, TypeVar, Union
 
-from axisgate.state import Status
+from axisgate.state import Status, axis_in, known_axes
 from axisgate.units import Distance
 
 _Axis = TypeVar("_Axis", bound=Any)
@@ -24,8 +24,9 @@ def names_of(axes: Sequence[str], known: Collection[str]) -> List[str]:
 
 
 def not_homed(status: Status, names: Sequence[str]) -> List[str]:
-    """Returns the axes with these names, or without names all, that the daemon has not homed."""
-    return [name for name in names or list(status.axes) if not status.axes[name].homed]
+    """Returns the axes with these names, or without names all, that the daemon has not homed. Raises Unavailable while
+    the daemon does not know the axes."""
+    return [name for name in names or known_axes(status) if not axis_in(status, name).homed]
 
 
 def targets_of(names: Sequence[str], point: Iterable[Distance]) -> Dict[str, Distance]:

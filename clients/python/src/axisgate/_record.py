@@ -63,9 +63,9 @@ class ProgressMeter:
         self._first: Dict[int, int] = {}
 
     def take(self, motion: motion_pb2.Motion, device: device_pb2.Device) -> Progress:
-        """Returns the progress. The first state is that at the start."""
-        positions = {axis.number: axis.position_pulses for axis in device.axes}
-        self._first = self._first or positions
+        """Returns the progress. The first known position of an axis is that at the start."""
+        positions = {axis.number: axis.position_pulses for axis in device.axes if axis.HasField("position_pulses")}
+        self._first = {**positions, **self._first}
         return Progress(_fraction(motion, self._first, positions),
                         {axis.name: axis.position for axis in status_of(device).axes.values()
                          if axis.number in motion.axes}, motion.segments_done)
@@ -76,5 +76,5 @@ def _fraction(motion: motion_pb2.Motion, first: Mapping[int, int], now: Mapping[
     if motion.segments_total:
         return float(motion.segments_done / motion.segments_total)
     parts = [(now[one.axis] - first[one.axis]) / (one.target_pulses - first[one.axis]) for one in motion.results
-             if one.HasField("target_pulses") and one.target_pulses != first[one.axis]]
+             if one.HasField("target_pulses") and one.axis in now and one.target_pulses != first[one.axis]]
     return min(parts) if parts else None

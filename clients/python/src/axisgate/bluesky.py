@@ -20,22 +20,18 @@ import logging
 import threading
 import time
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
 from axisgate._bluesky_status import MotionStatus, Status, in_thread, succeeded, until_it_fails
 from axisgate._methods import MOVE, SCAN
+from axisgate._readings import AxisReading, data_key, has_position, reading_of
 from axisgate._requests import move, scan
 from axisgate.axis import Axis
 from axisgate.lease import Lease
 from axisgate.samples import States
-from axisgate.state import AxisState, Status as StageStatus
-from axisgate.units import Distance, s
-from axisgate.v1 import device_pb2
+from axisgate.units import s
 
 _log = logging.getLogger("axisgate")
-_NANOMETERS = {"nm": Decimal(1), "um": Decimal(1000), "mm": Decimal(1_000_000)}
-_MILLIONTHS = Decimal(1_000_000)
 
 Documents = Dict[str, Dict[str, Any]]
 """Readings or data keys, by the name of the value."""
@@ -108,21 +104,15 @@ class _AxisDevice:
         with self._axis._stage._session.carrying(b"" if lease is None else lease.token):
             yield
 
-    def _state(self, max_age: Optional[float] = None) -> Tuple[AxisState, device_pb2.Axis, float]:
-        return _axis_in(self._axis._stage.status(max_age), self._axis)
+    @property
+    def _source(self) -> str:
+        return f"axisgate:{self._axis._stage.name}/{self._axis.name}"
+
+    def _state(self, max_age: Optional[float] = None) -> AxisReading:
+        return reading_of(self._axis._stage.status(max_age), self._axis)
 
     def _data_key(self) -> Dict[str, Any]:
-        state, message, _ = self._state()
-        key: Dict[str, Any] = {"source": f"axisgate:{self._axis._stage.name}/{self._axis.name}", "dtype": "number",
-                               "shape": [], "units": str(self._axis.unit)}
-        pulse = _pulse(message, self._axis)
-        if pulse is not None:
-            key["precision"] = max(0, -pulse.adjusted())
-        limits = {end: _in_unit(limit, self._axis) for end, limit in (("low", state.minimum), ("high", state.maximum))
-                  if limit is not None}
-        if limits and None not in limits.values():
-            key["limits"] = {"control": limits}
-        return key
+        return data_key(self._state(), self._axis, self._source)
 
 
 class BlueskyAxis(_AxisDevice):
@@ -140,7 +130,7 @@ class BlueskyAxis(_AxisDevice):
     @property
     def position(self) -> float:
         """Present position."""
-        return self._value(self._state(max_age=0.0)[0])
+        return self._state(max_age=0.0).position
 
     def set(self, value: float) -> MotionStatus:
         """Starts a move to a position. Raises Refused if it does not start."""
@@ -169,8 +159,7 @@ class BlueskyAxis(_AxisDevice):
 
     def read(self) -> Documents:
         """Reads the position from the controller."""
-        state, _, read_at = self._state(max_age=0.0)
-        return self._reading(state, read_at)
+        return self._document(self._state(max_age=0.0))
 
     def describe(self) -> Documents:
         """Returns the unit, the precision and the travel limits of the position."""
@@ -178,15 +167,15 @@ class BlueskyAxis(_AxisDevice):
 
     def read_configuration(self) -> Documents:
         """Returns the highest speed of the axis in pulses/s. Empty if unknown."""
-        _, message, read_at = self._state()
-        if message.speeds.maximum.WhichOneof("amount") != "pulses_per_s":
+        state = self._state()
+        fastest = state.message.speeds.maximum
+        if fastest.WhichOneof("amount") != "pulses_per_s":
             return {}
-        return {f"{self._name}_speed": {"value": message.speeds.maximum.pulses_per_s, "timestamp": read_at}}
+        return {f"{self._name}_speed": {"value": fastest.pulses_per_s, "timestamp": state.read_at}}
 
     def describe_configuration(self) -> Documents:
         """Describes read_configuration()."""
-        source = self._data_key()["source"]
-        return {name: {"source": source, "dtype": "integer", "shape": [], "units": "pulses/s"}
+        return {name: {"source": self._source, "dtype": "integer", "shape": [], "units": "pulses/s"}
                 for name in self.read_configuration()}
 
     def subscribe(self, function: Callable[[Documents], object]) -> None:
@@ -211,18 +200,12 @@ class BlueskyAxis(_AxisDevice):
     def _tell(self, states: States) -> None:
         with until_it_fails(self._name):
             for status in states:
-                state, _, read_at = _axis_in(status, self._axis)
-                if state.position.value is not None:
+                if has_position(status, self._axis):
                     for function in list(self._subscribers):
-                        function(self._reading(state, read_at))
+                        function(self._document(reading_of(status, self._axis)))
 
-    def _reading(self, state: AxisState, read_at: float) -> Documents:
-        return {self._name: {"value": self._value(state), "timestamp": read_at}}
-
-    def _value(self, state: AxisState) -> float:
-        if state.position.value is None:
-            raise RuntimeError(f"the position of axis {state.name} is unknown")
-        return float(state.position.value)
+    def _document(self, reading: AxisReading) -> Documents:
+        return {self._name: {"value": reading.position, "timestamp": reading.read_at}}
 
 
 @dataclass(frozen=True)
@@ -306,26 +289,3 @@ class BlueskyLine(_AxisDevice):
         if result is not None and result.scan is not None and result.scan.observed != result.scan.expected:
             _log.warning("%s gave %s trigger pulses, not %s: the positions may be wrong", self._name,
                          result.scan.observed, result.scan.expected)
-
-
-def _axis_in(status: StageStatus, axis: Axis) -> Tuple[AxisState, device_pb2.Axis, float]:
-    """Returns the state of an axis, its message, and the time of its reading."""
-    message = next(one for one in status.message.axes if one.number == axis.number)
-    read_at = status.message.read_time.ToNanoseconds() / 1e9 if status.message.HasField("read_time") else time.time()
-    return status.axes[axis.name], message, read_at
-
-
-def _pulse(message: device_pb2.Axis, axis: Axis) -> Optional[Decimal]:
-    """Returns the size of a pulse in the unit of the axis. None if unknown."""
-    if not message.per_pulse:
-        return None
-    unit = _MILLIONTHS if message.rotary else _NANOMETERS.get(axis.unit.symbol)
-    return None if unit is None else Decimal(message.per_pulse) / unit
-
-
-def _in_unit(distance: Distance, axis: Axis) -> Optional[float]:
-    """Returns a distance in the unit of the axis. None if it cannot be converted."""
-    if distance.unit.symbol == axis.unit.symbol:
-        return float(distance.value)
-    given, wanted = _NANOMETERS.get(distance.unit.symbol), _NANOMETERS.get(axis.unit.symbol)
-    return None if given is None or wanted is None else float(Decimal(distance.value) * given / wanted)

@@ -101,7 +101,11 @@ class Stage(Device):
             chosen = not_homed(self.status(), [self[axis].name for axis in axes])
             if not chosen:
                 return Result("", {}, 0.0)
-        return self._session.finish(HOME, stage_pb2.HomeRequest(device=self._session.device, axes=chosen))
+        return self._session.finish(HOME, self._home(chosen))
+
+    def start_home(self, *axes: str) -> Motion:
+        """Starts homing axes, without arguments all."""
+        return self._session.start(HOME, self._home(axes))
 
     def path(self, points: Iterable[Union[Arc, Iterable[Distance]]], axes: Sequence[str], *,
              speed: Optional[Speed] = None) -> Motion:
@@ -166,6 +170,9 @@ class Stage(Device):
         """Returns the newest 100 motions, newest first, also those of other callers."""
         listed = self._session.connection.ask(LIST_MOTIONS, stage_pb2.ListMotionsRequest(device=self._session.device))
         return [Motion(self._session, one) for one in listed.motions]
+
+    def _home(self, axes: Sequence[str]) -> stage_pb2.HomeRequest:
+        return stage_pb2.HomeRequest(device=self._session.device, axes=axes)
 
     def _move(self, targets: Dict[str, Distance], relative: bool, speed: Optional[Speed],
               validate_only: bool = False) -> stage_pb2.MoveRequest:

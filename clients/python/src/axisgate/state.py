@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import html
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any, Mapping, Optional, Tuple
 
+from axisgate.errors import Refused, Unavailable
 from axisgate.results import Position, axis_name, decimal_of, table, unit_of
 from axisgate.units import Distance, Unit, deg, mm, nm, pulses, um
 from axisgate.v1 import common_pb2, device_pb2
@@ -41,8 +43,13 @@ class Status:
     link: str
     link_problem: str
     mode: str
-    axes: Mapping[str, AxisState]
     message: device_pb2.Device
+
+    @functools.cached_property
+    def axes(self) -> Mapping[str, AxisState]:
+        """States of the axes by their names. Axes that the controller does not allow to be moved are left out."""
+        states = (axis_state(axis) for axis in self.message.axes if axis.controllable)
+        return {state.name: state for state in states}
 
     def __str__(self) -> str:
         positions = ", ".join(str(axis.position) for axis in self.axes.values())
@@ -56,11 +63,27 @@ class Status:
 
 
 def status_of(device: device_pb2.Device) -> Status:
-    """Returns the state of a device. Axes that the controller does not allow to be moved are left out."""
-    axes = [axis_state(axis) for axis in device.axes if axis.controllable]
+    """Returns the state of a device."""
     return Status(device.name[len("devices/"):], _name(device_pb2.LinkState, device.link, "LINK_STATE_"),
-                  device.link_problem, _name(common_pb2.Mode, device.mode, "MODE_"), {axis.name: axis for axis in axes},
-                  device)
+                  device.link_problem, _name(common_pb2.Mode, device.mode, "MODE_"), device)
+
+
+def known_axes(status: Status) -> Mapping[str, AxisState]:
+    """Returns the axes that can be moved. Raises Unavailable while the daemon does not know them: from its start until
+    the controller answers."""
+    if status.axes:
+        return status.axes
+    why = f"the device cannot be asked: {status.link_problem}" if status.link_problem else (
+        "it is not known yet which axes the device has")
+    raise Unavailable("LINK_DOWN", why, "try again when the controller answers")
+
+
+def axis_in(status: Status, name: str) -> AxisState:
+    """Returns the state of an axis. Raises Unavailable like known_axes()."""
+    state = known_axes(status).get(name)
+    if state is None:
+        raise Refused("UNKNOWN_AXIS", f"the controller no longer allows axis {name} to be moved")
+    return state
 
 
 def axis_state(axis: device_pb2.Axis) -> AxisState:

@@ -8,7 +8,7 @@ from axisgate._methods import MOVE
 from axisgate._requests import axis_move
 from axisgate.aio.motion import Motion
 from axisgate.results import Position, Result, StopReport
-from axisgate.state import AxisState
+from axisgate.state import AxisState, axis_in
 from axisgate.units import Distance, Speed, Unit
 from axisgate.v1 import stage_pb2
 
@@ -74,7 +74,7 @@ class Axis:
         return f"<Axis {self.name} of {self._stage.name}>"
 
     async def _state(self) -> AxisState:
-        return (await self._stage.status(max_age=0.0)).axes[self.name]
+        return axis_in(await self._stage.status(max_age=0.0), self.name)
 
     async def _position(self) -> Position:
         return (await self._state()).position

@@ -156,7 +156,11 @@ class Stage:
             chosen = not_homed(await self.status(), [self[axis].name for axis in axes])
             if not chosen:
                 return Result("", {}, 0.0)
-        return await self._session.finish(HOME, stage_pb2.HomeRequest(device=self._session.device, axes=chosen))
+        return await self._session.finish(HOME, self._home(chosen))
+
+    async def start_home(self, *axes: str) -> Motion:
+        """Starts homing axes, without arguments all."""
+        return await self._session.start(HOME, self._home(axes))
 
     async def path(self, points: Iterable[Union[Arc, Iterable[Distance]]], axes: Sequence[str], *,
                    speed: Optional[Speed] = None) -> Motion:
@@ -232,6 +236,9 @@ class Stage:
         """
         request = _requests.acquire_lease(self._session.device, axes, wait, ttl, at_loss, purpose)
         return Lease(self._session, request, wait, ttl)
+
+    def _home(self, axes: Sequence[str]) -> stage_pb2.HomeRequest:
+        return stage_pb2.HomeRequest(device=self._session.device, axes=axes)
 
     def _move(self, targets: Dict[str, Distance], relative: bool, speed: Optional[Speed],
               validate_only: bool = False) -> stage_pb2.MoveRequest:
