@@ -1,0 +1,1 @@
+"""The stage, as the actuators of this plugin use it."""
