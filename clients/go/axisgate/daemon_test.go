@@ -14,6 +14,7 @@ import (
 	"runtime"
 	"strings"
 	"sync"
+	"syscall"
 	"testing"
 	"time"
 )
@@ -91,7 +92,17 @@ func newDaemon(t *testing.T, journal bool) *daemon {
 func (d *daemon) path(name string) string { return filepath.Join(d.folder, name) }
 
 // start starts the daemon, and waits until its controller answers.
-func (d *daemon) start() {
+func (d *daemon) start() { d.startUntil("stage: link is UP") }
+
+// restartWithoutController restarts the daemon, whose controller then does not answer.
+func (d *daemon) restartWithoutController() {
+	d.simulator.Process.Signal(syscall.SIGSTOP)
+	d.kill()
+	d.startUntil("gRPC on")
+}
+
+// startUntil starts the daemon, and waits until its log has a text.
+func (d *daemon) startUntil(ready string) {
 	d.process = exec.Command(d.process.Path, "--config", d.path("axisgate.toml"))
 	d.process.Env = append(os.Environ(), "STATE_DIRECTORY="+d.path("state"))
 	log, err := os.Create(d.path("log"))
@@ -106,7 +117,7 @@ func (d *daemon) start() {
 	until(d.t, "a ready daemon", func() bool {
 		content, _ := os.ReadFile(d.path("log"))
 		d.log = string(content)
-		return strings.Contains(d.log, "stage: link is UP")
+		return strings.Contains(d.log, ready)
 	})
 }
 

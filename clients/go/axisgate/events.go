@@ -28,9 +28,8 @@ type Event struct {
 
 // A Gap means that events were missed, because they are no longer kept.
 type Gap struct {
-	// ResumeRevision is the revision of the event with which the stream continues. nil: the connection broke before the
-	// first event was received, and the stream continues with the next event.
-	ResumeRevision *uint64
+	// ResumeRevision is the revision of the event with which the stream continues.
+	ResumeRevision uint64
 }
 
 func (*Event) isEventOrGap() {}
@@ -39,12 +38,16 @@ func (*Gap) isEventOrGap()   {}
 // Events streams every event from now on, each once and in order, also over broken connections and restarts of the
 // daemon. A Gap in the series means that events were missed. The stream lasts until ctx ends or it is closed.
 func (s *Stage) Events(ctx context.Context) (*Stream[EventOrGap], error) {
-	return s.watchEvents(ctx, &cursor{device: s.session.device})
+	listed, err := s.session.list(ctx)
+	if err != nil {
+		return nil, err
+	}
+	return s.watchEvents(ctx, cursorNow(s.session.device, listed))
 }
 
 // EventsFrom does the same as Events from a revision on. Revision 0: all kept events.
 func (s *Stage) EventsFrom(ctx context.Context, revision uint64) (*Stream[EventOrGap], error) {
-	return s.watchEvents(ctx, &cursor{device: s.session.device, first: &revision})
+	return s.watchEvents(ctx, &cursor{device: s.session.device, first: revision})
 }
 
 // EventsAfter does the same as Events from the successor of an event on.
@@ -67,7 +70,6 @@ func (s *Stage) watchEvents(ctx context.Context, c *cursor) (*Stream[EventOrGap]
 			gap := c.gapAfter(f)
 			return gap, gap != nil
 		},
-		resumed: func() (EventOrGap, bool) { return &Gap{}, c.first == nil },
 	})
 }
 

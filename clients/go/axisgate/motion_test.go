@@ -225,3 +225,13 @@ func TestKilledDaemon(t *testing.T) {
 	})
 	wantResult(t, "x 0 mm")(stage.Axis("x").MoveTo(background, MM(0)))
 }
+
+func TestAxesAreUnknownAfterARestart(t *testing.T) {
+	d := newDaemon(t, true)
+	stage := d.open()
+	d.restartWithoutController()
+	_, err := stage.HomeIfNeeded(background)
+	wantError[*Refused](t, "LINK_DOWN", err)
+	_, err = stage.Axis("x").Position(background)
+	wantError[*Refused](t, "LINK_DOWN", err)
+}

@@ -67,6 +67,9 @@ func (s *Stage) HomeIfNeeded(ctx context.Context, axes ...string) (*Result, erro
 	if err != nil {
 		return nil, err
 	}
+	if len(status.Axes) == 0 {
+		return s.Home(ctx, axes...) // the daemon does not know the axes yet, and refuses
+	}
 	var needed []string
 	for _, axis := range s.axes {
 		state, known := status.Axis(axis.name)

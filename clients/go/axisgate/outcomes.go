@@ -40,12 +40,12 @@ var beforeMemory = map[Reason]bool{
 	"UNAUTHENTICATED": true, "LEASE_LOST": true, "INTERNAL": true, "REQUEST_ID_REUSED": true,
 }
 
-// early has the reasons of calls that the daemon refuses before it can send a problem.
+// early has the reasons of calls that the daemon refuses before it can send a problem. ResourceExhausted is none of
+// them: gRPC also reports it for an answer that is too long, after the request has acted.
 var early = map[codes.Code]Reason{
-	codes.Unauthenticated:   "UNAUTHENTICATED",
-	codes.PermissionDenied:  "NOT_ALLOWED",
-	codes.ResourceExhausted: "QUEUE_FULL",
-	codes.Unimplemented:     "UNIMPLEMENTED",
+	codes.Unauthenticated:  "UNAUTHENTICATED",
+	codes.PermissionDenied: "NOT_ALLOWED",
+	codes.Unimplemented:    "UNIMPLEMENTED",
 }
 
 // A failure is a call that ended without an answer. The problem is nil if the daemon did not report one. `sent` is

@@ -242,9 +242,9 @@ func TestHints(t *testing.T) {
 }
 
 func TestCursorResumesAfterTheLastEvent(t *testing.T) {
-	c := &cursor{device: "devices/stage"}
-	if c.request().FromRevision != nil {
-		t.Error(c.request())
+	c := cursorNow("devices/stage", &axisgatev1.ListDevicesResponse{NextRevision: 5, Run: "a"})
+	if request := c.request(); request.GetFromRevision() != 5 || request.Run != "a" {
+		t.Error(request)
 	}
 	c.take(&axisgatev1.Event{Revision: 7, Run: "a"})
 	if request := c.request(); request.GetFromRevision() != 8 || request.Run != "a" {
@@ -252,7 +252,7 @@ func TestCursorResumesAfterTheLastEvent(t *testing.T) {
 	}
 	compacted := refusal("COMPACTED", codes.OutOfRange)
 	compacted.problem.Metadata = map[string]string{"resume_revision": "40"}
-	if gap := c.gapAfter(compacted); gap == nil || *gap.ResumeRevision != 40 {
+	if gap := c.gapAfter(compacted); gap == nil || gap.ResumeRevision != 40 {
 		t.Error(gap)
 	}
 	if request := c.request(); request.GetFromRevision() != 40 || request.Run != "" || c.gapAfter(broken) != nil {

@@ -255,6 +255,28 @@ func TestStreams(t *testing.T) {
 	}
 }
 
+func TestEventsResumeBeforeTheFirstEvent(t *testing.T) {
+	d := newDaemon(t, true)
+	events, err := d.open().Events(background)
+	if err != nil {
+		t.Fatal(err)
+	}
+	defer events.Close()
+	d.kill()
+	started := make(chan struct{})
+	time.AfterFunc(1500*time.Millisecond, func() {
+		defer close(started)
+		d.start()
+	})
+	for item, err := range events.All() {
+		if event, ok := item.(*Event); !ok || event.Kind != "daemon_started" || err != nil {
+			t.Error(item, err)
+		}
+		break
+	}
+	<-started
+}
+
 // readUntilMotion reads the kept events, or up to a motion that has succeeded.
 func readUntilMotion(t *testing.T, events *Stream[EventOrGap]) *Event {
 	t.Helper()

@@ -48,12 +48,11 @@ type answers[A any] interface {
 }
 
 // A feed is how a stream begins, and what its answers become. `skip` returns the item for answers that can no longer be
-// received, and `resumed` the item that follows a broken connection; both report whether there is one, and may be nil.
+// received, and reports whether there is one; it may be nil.
 type feed[A, T any] struct {
-	begin   func(context.Context) (answers[A], error)
-	item    func(A) T
-	skip    func(failure) (T, bool)
-	resumed func() (T, bool)
+	begin func(context.Context) (answers[A], error)
+	item  func(A) T
+	skip  func(failure) (T, bool)
 }
 
 // newStream begins a stream, and returns once the daemon has begun to answer.
@@ -144,8 +143,5 @@ func (r *resuming[A, T]) resume() (item T, found bool, err error) {
 		r.pause(r.own, r.channel, r.failed, r.backoff.pause())
 	}
 	r.begin()
-	if !found && r.feed.resumed != nil {
-		item, found = r.feed.resumed()
-	}
 	return item, found, nil
 }

@@ -37,7 +37,8 @@ export interface ActOptions {
   readonly started?: ((requestId: string) => void) | undefined;
 }
 
-const LIST = create(ListDevicesRequestSchema);
+/** Request for the devices. */
+export const LIST = create(ListDevicesRequestSchema);
 
 /**
  * A Connection is the daemon as one program sees it. Repeat and Following decide what it sends.

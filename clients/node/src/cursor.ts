@@ -6,24 +6,17 @@ import type { Failure } from "./outcomes.js";
 /** A Cursor knows the first event that a watcher has not received yet. It does not send. */
 export class Cursor {
   /**
-   * `first` is the revision of that event. Undefined: only new events; 0: all kept events. `run` is the run of the event
-   * before it, or empty.
+   * `first` is the revision of that event. 0: all kept events. `run` is the run to which the revision belongs, or empty.
    */
   constructor(
     private readonly device: string,
-    private first: bigint | undefined,
+    private first: bigint,
     private run: string,
   ) {}
 
-  /** True if the cursor has no place yet: events before the answer are missed. */
-  get isNew(): boolean {
-    return this.first === undefined;
-  }
-
   /** Returns the request for all events from here on. */
   request(): WatchRequest {
-    const from = this.first === undefined ? {} : { fromRevision: this.first };
-    return create(WatchRequestSchema, { device: this.device, run: this.run, ...from });
+    return create(WatchRequestSchema, { device: this.device, run: this.run, fromRevision: this.first });
   }
 
   /** Moves past an event. */

@@ -1,6 +1,8 @@
 import { timestampDate } from "@bufbuild/protobuf/wkt";
 
+import { LIST } from "./connection.js";
 import { Cursor } from "./cursor.js";
+import { DeviceService } from "./gen/axisgate/v1/device_pb.js";
 import {
   type Event as EventMessage,
   EventService,
@@ -38,11 +40,8 @@ export class Event {
 
 /** A Gap says that events were missed, because they are no longer kept. */
 export class Gap {
-  /**
-   * Watching continues at the event `resumeRevision`. Undefined: the connection broke before the first event was
-   * received, and watching continues with the next event.
-   */
-  constructor(readonly resumeRevision: bigint | undefined) {}
+  /** Watching continues at the event `resumeRevision`. */
+  constructor(readonly resumeRevision: bigint) {}
 }
 
 /** Options of Stage.events(). */
@@ -53,18 +52,17 @@ export interface EventOptions extends WaitOptions {
 
 /** Events is the iterator of Stage.events(). */
 export class Events extends ResumingStream<Event | Gap, typeof WatchRequestSchema, typeof WatchResponseSchema> {
-  private readonly cursor: Cursor;
-
-  private constructor(session: DeviceSession, { since, signal }: EventOptions) {
+  private constructor(
+    session: DeviceSession,
+    private readonly cursor: Cursor,
+    signal: AbortSignal | undefined,
+  ) {
     super(session.connection, EventService.method.watch, signal);
-    const revision = since instanceof Event ? since.revision : since;
-    const run = since instanceof Event ? since.run : "";
-    this.cursor = new Cursor(session.device, revision ? revision + 1n : revision, run);
   }
 
   /** Begins to watch. */
   static async begin(session: DeviceSession, options: EventOptions): Promise<Events> {
-    const events = new Events(session, options);
+    const events = new Events(session, await cursorOf(session, options), options.signal);
     await events.begin().started();
     return events;
   }
@@ -83,8 +81,12 @@ export class Events extends ResumingStream<Event | Gap, typeof WatchRequestSchem
     const resume = this.cursor.gapAfter(failure);
     return resume === undefined ? undefined : new Gap(resume);
   }
+}
 
-  protected override resumed(): Gap | undefined {
-    return this.cursor.isNew ? new Gap(undefined) : undefined;
-  }
+/** Returns the place after `since`, or after all events until now. */
+async function cursorOf({ connection, device }: DeviceSession, { since, signal }: EventOptions): Promise<Cursor> {
+  if (since instanceof Event) return new Cursor(device, since.revision + 1n, since.run);
+  if (since !== undefined) return new Cursor(device, since === 0n ? since : since + 1n, "");
+  const { nextRevision, run } = await connection.ask(DeviceService.method.listDevices, LIST, { signal });
+  return new Cursor(device, nextRevision, run);
 }

@@ -149,7 +149,7 @@ export class Stage extends Device {
   /** Homes axes, without names all, and waits for the outcome. An aborted signal cancels the motion. */
   async home(axes: readonly string[] = [], options: HomeOptions = {}): Promise<Result> {
     const chosen = options.ifNeeded ? await this.notHomed(axes) : axes;
-    if (options.ifNeeded && chosen.length === 0) return new Result("", new Map(), 0);
+    if (chosen === undefined) return new Result("", new Map(), 0);
     const request = create(HomeRequestSchema, { device: this.session.device, axes: [...chosen] });
     return this.session.finish(StageService.method.home, request, options.signal);
   }
@@ -255,9 +255,13 @@ export class Stage extends Device {
     return { device, maxWait: duration(STOP_MS), context: { leaseToken: token } };
   }
 
-  private async notHomed(axes: readonly string[]): Promise<string[]> {
+  /** Returns the axes that the daemon has not homed. Undefined: it has homed all. */
+  private async notHomed(axes: readonly string[]): Promise<readonly string[] | undefined> {
     const states = (await this.status()).axes;
+    // After its start, the daemon does not know the axes until the controller answers. It then refuses to home them.
+    if (states.size === 0) return axes;
     const names = axes.length > 0 ? axes.map((axis) => this.axis(axis).name) : [...states.keys()];
-    return names.filter((name) => !states.get(name)?.homed);
+    const left = names.filter((name) => !states.get(name)?.homed);
+    return left.length > 0 ? left : undefined;
   }
 }

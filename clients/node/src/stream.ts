@@ -34,11 +34,6 @@ export abstract class ResumingStream<T, I extends DescMessage, O extends DescMes
     return undefined;
   }
 
-  /** Returns an item that follows a broken connection. Undefined: nothing was missed. */
-  protected resumed(): T | undefined {
-    return undefined;
-  }
-
   [Symbol.asyncIterator](): this {
     return this;
   }
@@ -95,6 +90,6 @@ export abstract class ResumingStream<T, I extends DescMessage, O extends DescMes
     }
     if (this.isClosed()) return undefined;
     await this.begin().started();
-    return item ?? this.resumed();
+    return item;
   }
 }

@@ -47,12 +47,19 @@ export class Daemon {
     return daemon;
   }
 
-  /** Starts the daemon again, and waits until its controller answers. */
-  async start(): Promise<void> {
+  /** Restarts the daemon, whose controller then does not answer. */
+  async restartWithoutController(): Promise<void> {
+    this.simulator.kill("SIGSTOP");
+    await this.kill();
+    await this.start("gRPC on");
+  }
+
+  /** Starts the daemon again, and waits until its log has the text `ready`: its controller answers. */
+  async start(ready = "stage: link is UP"): Promise<void> {
     const log = openSync(this.log, "w");
     const env = { ...process.env, STATE_DIRECTORY: join(this.folder, "state") };
     this.process = spawn(join(BIN, "axisgated"), ["--config", this.config], { stdio: ["ignore", log, log], env });
-    await until(() => readFileSync(this.log, "utf8").includes("stage: link is UP"), "a ready daemon");
+    await until(() => readFileSync(this.log, "utf8").includes(ready), "a ready daemon");
   }
 
   async kill(): Promise<void> {

@@ -268,3 +268,12 @@ test("the daemon is started again before a motion", async (t) => {
   const [result] = await Promise.all([stage.moveTo({ x: mm("1") }), sleep(1000).then(() => daemon.start())]);
   assert.equal(String(result), "x 1 mm");
 });
+
+test("axes are unknown after a restart", async (t) => {
+  const daemon = await Daemon.of(t);
+  const stage = await daemon.connect(t);
+  await daemon.restartWithoutController();
+  const isDown = (error: unknown): boolean => error instanceof Unavailable && error.reason === "LINK_DOWN";
+  await assert.rejects(stage.home([], { ifNeeded: true }), isDown);
+  await assert.rejects(stage.axis("x").position(), isDown);
+});

@@ -202,8 +202,8 @@ test("hints name the functions of this package", () => {
 });
 
 test("events resume after the last event, and after a gap", () => {
-  const cursor = new Cursor("devices/stage", undefined, "");
-  assert.equal(cursor.request().fromRevision, undefined);
+  const cursor = new Cursor("devices/stage", 5n, "a");
+  assert.deepEqual([cursor.request().fromRevision, cursor.request().run], [5n, "a"]);
   cursor.take(create(EventSchema, { revision: 7n, run: "a" }));
   assert.deepEqual([cursor.request().fromRevision, cursor.request().run], [8n, "a"]);
   assert.equal(cursor.gapAfter(BROKEN), undefined);

@@ -182,6 +182,16 @@ test("events resume over a restart of the daemon", async (t) => {
   assert.ok(kinds.includes("daemonStarted"));
 });
 
+test("events resume before the first event", async (t) => {
+  const [stage, , daemon] = await two(t);
+  await using events = await stage.events();
+  await daemon.kill();
+  const started = sleep(1500).then(() => daemon.start());
+  const { value } = await events.next();
+  assert.ok(value instanceof Event && value.fact.case === "daemonStarted");
+  await started;
+});
+
 test("states and progress", async (t) => {
   const [stage] = await two(t);
   const states = stage.watch();
