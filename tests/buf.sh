@@ -39,9 +39,8 @@ check_names() {
 check_baseline() {
   local commit
   while read -r commit; do
-    if git -C "$repository" show --name-only --format= "$commit" | grep -q '^proto/axisgate/'; then
+    [[ -z "$(git -C "$repository" show --name-only --format= "$commit" -- proto/axisgate)" ]] ||
       fail "commit $commit changes the API and its baseline"
-    fi
   done < <(git -C "$repository" log --format=%h -- "$baseline")
 }
 

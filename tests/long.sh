@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The proofs that take too long for every change: seeds never run before, all the seeds of which tests/run.sh takes a
-# sample, the journal's log damaged at every byte, a paced path of ten minutes, both fuzzers.
+# sample, the journal's log damaged at every byte, a paced path of ten minutes, both fuzzers, and the devices for
+# bluesky, ophyd-async and PyMoDAQ.
 # usage: tests/long.sh [HOURS]     virtual hours of hostile seeds, 100 without
 set -euo pipefail
 
@@ -25,6 +26,7 @@ main() {
   AXISGATE_EVERY_BYTE=1 build/bin/unit_tests --gtest_filter='JournalDamage.ALog*'
   "$root/tests/paced-path.sh" "$paced_segments"
   "$root/tests/fuzz.sh" "$fuzz_seconds"
+  "$root/clients/python/ecosystems.sh" "$root/build/ecosystems"
 }
 
 main
