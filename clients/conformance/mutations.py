@@ -158,7 +158,7 @@ def stop_not_sent(_):
 class Mutation:
     """A Mutation is one row of the table. It makes `step` fail with a difference that begins with `difference`.
 
-    `answer` answers the calls of the method `path`. A mutation with step 0 is a part of the scenario.
+    `answer` answers the calls of the method `path`, and of `also`. A mutation with step 0 is a part of the scenario.
     """
 
     name: str
@@ -167,6 +167,7 @@ class Mutation:
     answer: typing.Callable
     step: int = 0
     difference: str = ""
+    also: str = ""
 
 
 UNKNOWN_REASON = Mutation("unknown-reason", "a newer daemon refuses moves with a new reason", MOVE, unknown_reason)
@@ -187,7 +188,7 @@ MUTATIONS = (
     Mutation("another-motion", "answers a move with the motion of another request", MOVE, another_request,
              3, 'outcome is "unknown", not "done"'),
     Mutation("unknown-as-stopped", "says that a motion with an unknown end was stopped", WAIT_MOTION,
-             unknown_as_stopped, 21, 'outcome is "stopped", not "unknown"'),
+             unknown_as_stopped, 21, 'outcome is "stopped", not "unknown"', MOVE),
     Mutation("late-lease-lost", "says too late that a lease is lost", RENEW_LEASE, late_lease_lost,
              27, "lost is false, not true"),
     Mutation("long-lease", "ends a lease only after ten times its time to live", ACQUIRE_LEASE, long_lease,

@@ -34,7 +34,7 @@ class Proxy(grpc.GenericRpcHandler):
     def service(self, details):
         """Returns the handler of a call. gRPC sends a single message as a stream of one message."""
         path = details.method
-        is_mutated = self._mutation is not None and path == self._mutation.path
+        is_mutated = self._mutation is not None and path in (self._mutation.path, self._mutation.also)
         answer = self._mutation.answer if is_mutated else pass_on
         classes = METHODS[path] if is_mutated else RAW
 

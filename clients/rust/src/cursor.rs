@@ -7,20 +7,20 @@ use crate::failure::Failure;
 #[derive(Clone)]
 pub struct Cursor {
     pub device: String,
-    /// Revision of that event. None: only new events; 0: all kept events.
-    pub first: Option<u64>,
-    /// Run of the daemon that sent the event before it. Empty: none was received.
+    /// Revision of that event. 0: all kept events.
+    pub first: u64,
+    /// Run of the daemon to which the revision belongs. Empty: not checked.
     pub run: String,
 }
 
 impl Cursor {
     pub fn request(&self) -> api::WatchRequest {
-        api::WatchRequest { device: self.device.clone(), from_revision: self.first, run: self.run.clone() }
+        api::WatchRequest { device: self.device.clone(), from_revision: Some(self.first), run: self.run.clone() }
     }
 
     /// Moves past an event.
     pub fn take(&mut self, revision: u64, run: String) {
-        (self.first, self.run) = (Some(revision + 1), run);
+        (self.first, self.run) = (revision + 1, run);
     }
 
     /// Returns the revision with which events continue after a gap, and moves there. None: the failure is another one.
@@ -29,7 +29,7 @@ impl Cursor {
             return None;
         }
         let resume = failure.problem.as_ref()?.metadata.get("resume_revision")?.parse().ok()?;
-        (self.first, self.run) = (Some(resume), String::new());
+        (self.first, self.run) = (resume, String::new());
         Some(resume)
     }
 }

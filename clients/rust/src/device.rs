@@ -34,7 +34,14 @@ impl Session {
         Ok(self.change(api::RearmRequest { device, ..Default::default() }).await?.axes)
     }
 
-    pub async fn events(&self, first: Option<u64>, run: &str) -> Result<Updates<EventOrGap>> {
+    /// Watches events from now on. They have a place from the beginning, to resume there if the connection breaks at
+    /// once.
+    pub async fn new_events(&self) -> Result<Updates<EventOrGap>> {
+        let listed = self.ask(api::ListDevicesRequest {}).await?;
+        self.events(listed.next_revision, &listed.run).await
+    }
+
+    pub async fn events(&self, first: u64, run: &str) -> Result<Updates<EventOrGap>> {
         let cursor = Cursor { device: self.device.to_string(), first, run: run.to_string() };
         watch_events(self.connection.clone(), cursor).await
     }
@@ -67,17 +74,17 @@ macro_rules! device_functions {
             /// Returns every event from now on, each once and in order, also over broken connections and restarts of the
             /// daemon. A `Gap` in the series means that events were missed. Returns once watching has begun.
             pub async fn events(&self) -> crate::Result<crate::Updates<crate::EventOrGap>> {
-                self.session.events(None, "").await
+                self.session.new_events().await
             }
 
             /// Does the same as `events()` from a revision on. Revision 0: all kept events.
             pub async fn events_from(&self, revision: u64) -> crate::Result<crate::Updates<crate::EventOrGap>> {
-                self.session.events(Some(revision), "").await
+                self.session.events(revision, "").await
             }
 
             /// Does the same as `events()` from the successor of an event on.
             pub async fn events_after(&self, last: &crate::Event) -> crate::Result<crate::Updates<crate::EventOrGap>> {
-                self.session.events(Some(last.revision + 1), &last.run).await
+                self.session.events(last.revision + 1, &last.run).await
             }
 
             /// Acquires the exclusive right to axes once it is awaited. [`ALL`](crate::ALL): the whole device.

@@ -18,9 +18,8 @@ pub enum EventOrGap {
     Event(Event),
     /// Events were missed, because they are no longer kept.
     Gap {
-        /// Revision of the event with which the series continues. None: the connection broke before the first event was
-        /// received, and the series continues with the next event.
-        resume_revision: Option<u64>,
+        /// Revision of the event with which the series continues.
+        resume_revision: u64,
     },
 }
 
@@ -151,10 +150,6 @@ impl Feed for Cursor {
     }
 
     fn skip(&mut self, failure: &Failure) -> Option<EventOrGap> {
-        self.gap_after(failure).map(|resume| EventOrGap::Gap { resume_revision: Some(resume) })
-    }
-
-    fn resumed(&self) -> Option<EventOrGap> {
-        self.first.is_none().then_some(EventOrGap::Gap { resume_revision: None })
+        self.gap_after(failure).map(|resume| EventOrGap::Gap { resume_revision: resume })
     }
 }

@@ -228,8 +228,8 @@ fn hints_name_functions() {
 
 #[test]
 fn the_cursor_resumes_after_the_last_event() {
-    let mut cursor = Cursor { device: "devices/stage".to_string(), first: None, run: String::new() };
-    assert_eq!(cursor.request().from_revision, None);
+    let mut cursor = Cursor { device: "devices/stage".to_string(), first: 0, run: String::new() };
+    assert_eq!(cursor.request().from_revision, Some(0));
     cursor.take(7, "a".to_string());
     assert_eq!((cursor.request().from_revision, cursor.request().run.as_str()), (Some(8), "a"));
     let mut compacted = refusal("COMPACTED", Code::OutOfRange);

@@ -57,11 +57,6 @@ pub trait Feed: Send + 'static {
     fn skip(&mut self, _failure: &Failure) -> Option<Self::Item> {
         None
     }
-
-    /// Returns the item that follows a broken connection. None: there is none.
-    fn resumed(&self) -> Option<Self::Item> {
-        None
-    }
 }
 
 /// Begins a stream. Returns once the daemon has begun to answer, or if the connection is broken.
@@ -127,6 +122,6 @@ impl<F: Feed> Resuming<F> {
             tokio::time::sleep(self.backoff.pause()).await;
         }
         self.begin().await;
-        Ok(skipped.or_else(|| self.feed.resumed()))
+        Ok(skipped)
     }
 }

@@ -106,7 +106,7 @@ abstract sealed class MovingDevice extends Device permits Stage {
   public Result homeIfNeeded(String... axes) {
     List<String> chosen = List.of(axes);
     String[] needed =
-        Status.of(session.read(null)).axes().stream()
+        Status.of(session.read(null)).knownAxes().stream()
             .filter(axis -> !axis.homed())
             .filter(
                 axis ->

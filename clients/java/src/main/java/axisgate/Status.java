@@ -47,6 +47,23 @@ public record Status(
     return axes.stream().filter(axis -> axis.name().equals(name)).findFirst();
   }
 
+  // Returns the axes. Throws Unavailable while they are unknown, because the controller has not
+  // answered yet.
+  List<AxisState> knownAxes() {
+    if (!axes.isEmpty()) {
+      return axes;
+    }
+    throw new Unavailable(
+        Problem.of(
+            "LINK_DOWN",
+            "the axes of "
+                + device
+                + " are unknown: "
+                + (linkProblem.isEmpty() ? "the controller is read" : linkProblem),
+            "wait until the controller answers",
+            ""));
+  }
+
   /** Returns the state of the link and the positions. */
   @Override
   public String toString() {
