@@ -10,7 +10,7 @@ name=clients
 tests="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 # shellcheck source=tests/recorded-proof.sh
 source "$tests/recorded-proof.sh"
-built="$repository/build/clients"
+built="$repository/build/packages"  # build/clients is CMake's
 languages=(python cpp go java node rust)
 packages=(mypy protobuf-compiler protobuf-compiler-grpc python3-grpcio python3-numpy python3-protobuf python3-venv)
 for language in "${languages[@]}"; do

@@ -14,7 +14,7 @@ int main() {
     std::cout << "look at the stage: " << error.message() << '\n';
     return 1;
   } catch (const axisgate::Error& error) {
-    std::cout << error.reason() << ": " << error.message() << " (" << error.hint() << ")\n";
+    std::cout << error.what() << '\n';
     return 1;
   }
 }
