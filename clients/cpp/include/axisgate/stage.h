@@ -1,4 +1,4 @@
-// A stage behind the daemon.
+// The connection to a stage, and what a program does with it.
 #pragma once
 
 #include <chrono>
