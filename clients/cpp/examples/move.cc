@@ -9,7 +9,8 @@ int main() {
   try {
     axisgate::Stage stage;
     stage.home_if_needed({"x"});
-    std::cout << "moved: " << stage["x"].move_to(1.5_mm) << '\n';
+    const axisgate::MotionResult result = stage["x"].move_to(1.5_mm);
+    std::cout << "moved: " << result << '\n';
   } catch (const axisgate::OutcomeUnknown& error) {
     std::cout << "look at the stage: " << error.message() << '\n';
     return 1;
